@@ -1,0 +1,42 @@
+// What a study starts from: a light's depth map and the receivers that look it up.
+// From here on everything is deterministic; rays and files lie before it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bitshade/texture/image.hpp"
+
+namespace bitshade {
+
+/// One shaded fragment: where it looks into the depth map, and with what depth.
+///
+/// Units    u, v in [0,1] across the map (v down the rows), on a grid of 2^-24, so that exact
+///          kernels keep a fixed width; depths in [0,1] by the frame's metric; dt_du, dt_dv are
+///          the receiver's tangent plane (depth per unit of u and v); du_dx .. dv_dy the screen
+///          derivatives of (u, v), per pixel, from which a sampler takes its level and anisotropy.
+struct receiver {
+  float u = 0, v = 0;
+  float t = 0;
+  float dt_du = 0, dt_dv = 0;
+  float du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
+  std::uint32_t surface = 0;  ///< the surface that it lies on; 0: no receiver at this pixel
+  float diffuse = 1;          ///< max(0, n.l), for the shaded picture alone
+};
+
+/// A scene as its light and its camera see it.
+///
+/// Shapes   depth: 1 channel, binary32 in [0,1], 1 where nothing was drawn;
+///          surface: same size, the id of what was hit (0: nothing), or empty for captured maps;
+///          receivers: view_width x view_height, row-major.
+struct frame {
+  std::string name;
+  image<float> depth;
+  image<std::uint32_t> surface;
+  int view_width = 0;
+  int view_height = 0;
+  std::vector<receiver> receivers;
+};
+
+}  // namespace bitshade

@@ -1,0 +1,1 @@
+# One source a instruction set, compiled with that set's flags alone.

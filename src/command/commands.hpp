@@ -1,0 +1,17 @@
+// The subcommands, one file each: add_NAME() declares its options on the application and runs the
+// work from CLI11's callback, throwing usage_error or failure (io/error.hpp).
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace bitshade::command {
+
+// (one declaration a line, in the order of --help)
+
+/// Parses the arguments and runs the command that they name; returns the exit status:
+/// 0 done, 1 it could not be done, 2 the arguments make no sense.
+int run(int argc, const char* const* argv);
+
+}  // namespace bitshade::command
