@@ -1,0 +1,205 @@
+// One cell of a study: a technique in a format, with everything that decides its bits.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bitshade {
+
+/// The techniques of the sources, in the order of their list ([LauritzenMcCool08], reports).
+enum class technique { hard, pcf, vsm, savsm, lvsm, evsm2, evsm4, esm, csm, msm };
+
+inline constexpr std::array<std::string_view, 10> technique_names{
+    "hard", "pcf", "vsm", "savsm", "lvsm", "evsm2", "evsm4", "esm", "csm", "msm"};
+
+constexpr std::string_view name_of(technique t) {
+  return technique_names[static_cast<std::size_t>(t)];
+}
+
+/// The technique of that name; throws std::invalid_argument where there is none.
+inline technique technique_named(std::string_view name) {
+  for (std::size_t i = 0; i < technique_names.size(); ++i) {
+    if (technique_names[i] == name) return static_cast<technique>(i);
+  }
+  throw std::invalid_argument("unknown technique '" + std::string(name) + "'");
+}
+
+/// Where the layers' boundaries come from.
+enum class split_rule { uniform, lloyd, manual };
+
+/// How the map is read while shading.
+enum class texel_filter { nearest, bilinear, trilinear };
+
+inline constexpr std::array<std::string_view, 3> filter_names{"nearest", "bilinear", "trilinear"};
+
+/// A technique, a format and their parameters; the defaults are an engine's usual choices.
+///
+/// Units    depths in [0,1]; min_variance in depth^2; overlap in depth; blur_sigma in texels.
+struct configuration {
+  technique method = technique::vsm;
+  /// A name that parse_encoding knows, or "exact": no rounding anywhere.
+  std::string format = "unorm16";
+
+  int layers = 1;  ///< layers of an LVSM; other techniques have one
+  split_rule splits = split_rule::uniform;
+  std::vector<double> manual_splits;  ///< the layers-1 interior splits, for split_rule::manual
+  double overlap = 0.01;              ///< delta of equation (8); engines: a few percent
+  bool transition = false;            ///< blend two layers across their overlap
+  bool every_layer = false;           ///< the minimum over all layers, not the receiver's own
+
+  int blur_taps = 9;  ///< separable Gaussian; odd, 1 to 25; 0 and 1: none
+  double blur_sigma = 2.0;
+  double min_variance = 1e-5;  ///< sigma_min^2; the range 1e-6 .. 1e-4 is common
+  texel_filter filter = texel_filter::bilinear;
+  int max_anisotropy = 1;  ///< 1: isotropic; up to 16
+
+  double bleeding_reduction = 0;  ///< alpha of (11), 0 <= alpha < 1
+  double exponent = 5;            ///< c of ESM and EVSM; capped by the format
+  double negative_exponent = 5;   ///< the second constant of EVSM with four components
+  int terms = 4;                  ///< M of CSM
+  double moment_bias = 6e-5;      ///< of the four-moment technique
+  bool optimised_basis = true;    ///< quantisation basis of the four-moment technique
+
+  bool exact() const { return format == "exact"; }
+  bool blurred() const { return blur_taps > 1; }
+  /// Components a texel stores in one layer: 1 (depth), 2 or 4 moments, 2M Fourier terms.
+  int channels() const;
+  /// A text that is equal for two configurations exactly when their runs are: the database's key.
+  std::string key() const;
+  /// Throws std::invalid_argument with one sentence where the fields contradict each other.
+  void validate() const;
+};
+
+inline bool uses_floor(technique t) {
+  return t == technique::vsm || t == technique::savsm || t == technique::lvsm ||
+         t == technique::evsm2 || t == technique::evsm4;
+}
+
+inline int configuration::channels() const {
+  switch (method) {
+    case technique::hard:
+    case technique::pcf:
+    case technique::esm:
+      return 1;
+    case technique::vsm:
+    case technique::savsm:
+    case technique::lvsm:
+    case technique::evsm2:
+      return 2;
+    case technique::evsm4:
+    case technique::msm:
+      return 4;
+    case technique::csm:
+      return 2 * terms;
+  }
+  return 0;
+}
+
+namespace detail {
+inline std::string shortest(double value) {  // the shortest text that reads back as value
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+}  // namespace detail
+
+inline std::string configuration::key() const {
+  std::string text(name_of(method));
+  const auto add = [&](std::string_view name, const std::string& value) {
+    text.append(" ").append(name).append("=").append(value);
+  };
+  add("format", format);
+  if (method == technique::lvsm) {
+    add("layers", std::to_string(layers));
+    if (layers > 1) {
+      if (splits == split_rule::manual) {
+        std::string list;
+        for (const double s : manual_splits) {
+          list.append(list.empty() ? "" : ",").append(detail::shortest(s));
+        }
+        add("splits", list);
+      } else {
+        add("splits", splits == split_rule::uniform ? "uniform" : "lloyd");
+      }
+      add("overlap", detail::shortest(overlap));
+      if (transition) add("transition", "on");
+      if (every_layer) add("every-layer", "on");
+    }
+  }
+  if (blurred() && method != technique::hard) {
+    add("blur", std::to_string(blur_taps) + "/" + detail::shortest(blur_sigma));
+  }
+  if (uses_floor(method)) add("min-variance", detail::shortest(min_variance));
+  if (method != technique::hard) {
+    add("filter", std::string(filter_names[static_cast<std::size_t>(filter)]));
+    if (max_anisotropy > 1) add("anisotropy", std::to_string(max_anisotropy));
+  }
+  if (method == technique::esm || method == technique::evsm2 || method == technique::evsm4) {
+    add("exponent", detail::shortest(exponent));
+  }
+  if (method == technique::evsm4) add("negative-exponent", detail::shortest(negative_exponent));
+  if (method == technique::csm) add("terms", std::to_string(terms));
+  if (method == technique::msm) {
+    add("moment-bias", detail::shortest(moment_bias));
+    if (!optimised_basis) add("basis", "dense");
+  }
+  if (bleeding_reduction != 0 && method != technique::hard && method != technique::pcf) {
+    add("bleeding-reduction", detail::shortest(bleeding_reduction));
+  }
+  return text;
+}
+
+inline void configuration::validate() const {
+  const auto refuse = [](const std::string& why) { throw std::invalid_argument(why); };
+  if (format.empty()) refuse("the format is empty: name one, such as unorm16");
+  if (layers < 1 || layers > 256) {
+    refuse("layers = " + std::to_string(layers) + " is outside 1 to 256");
+  }
+  if (splits == split_rule::manual) {
+    if (manual_splits.size() + 1 != static_cast<std::size_t>(layers)) {
+      refuse(std::to_string(manual_splits.size()) + " splits make " +
+             std::to_string(manual_splits.size() + 1) + " layers, not " + std::to_string(layers) +
+             ": leave out --layers or give one split fewer than layers");
+    }
+    double before = 0;
+    for (const double s : manual_splits) {
+      if (!(s > before && s < 1)) {
+        refuse("the split " + detail::shortest(s) +
+               " is not between 0 and 1 and above the split before it: list them in rising order");
+      }
+      before = s;
+    }
+  }
+  if (!(overlap >= 0 && overlap <= 0.5)) {
+    refuse("overlap = " + detail::shortest(overlap) + " is outside 0 to 0.5");
+  }
+  if (blur_taps < 0 || blur_taps > 25 || (blur_taps != 0 && blur_taps % 2 == 0)) {
+    refuse("blur = " + std::to_string(blur_taps) + " taps: give 0 or an odd number up to 25");
+  }
+  if (!(blur_sigma > 0 && blur_sigma <= 64)) {
+    refuse("blur sigma = " + detail::shortest(blur_sigma) + " is outside 0 to 64 texels");
+  }
+  if (!(min_variance >= 0 && min_variance <= 1)) {
+    refuse("min-variance = " + detail::shortest(min_variance) + " is outside 0 to 1");
+  }
+  if (max_anisotropy < 1 || max_anisotropy > 16) {
+    refuse("anisotropy = " + std::to_string(max_anisotropy) + " is outside 1 to 16");
+  }
+  if (!(bleeding_reduction >= 0 && bleeding_reduction < 1)) {
+    refuse("bleeding reduction = " + detail::shortest(bleeding_reduction) +
+           " is outside [0, 1): at 1 nothing would be left of any light");
+  }
+  if (!(exponent > 0 && exponent <= 700 && negative_exponent > 0 && negative_exponent <= 700)) {
+    refuse("an exponent is outside 0 to 700");
+  }
+  if (terms < 1 || terms > 64) refuse("terms = " + std::to_string(terms) + " is outside 1 to 64");
+  if (!(moment_bias >= 0 && moment_bias < 1)) {
+    refuse("moment bias = " + detail::shortest(moment_bias) + " is outside [0, 1)");
+  }
+}
+
+}  // namespace bitshade
