@@ -1,41 +1,58 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <new>
 
 #include "command/commands.hpp"
+#include "command/help.hpp"
+#include "command/standard_output.hpp"
 #include "io/error.hpp"
 
 namespace bitshade::command {
+namespace {
+
+void declare(CLI::App& app) {
+  app.formatter(help_formatter());
+  app.require_subcommand(1);
+  app.set_help_flag("-h,--help", "Print this help and leave");
+  app.set_version_flag("--version", std::string("bitshade ") + BITSHADE_VERSION,
+                       "Print the version and leave");
+  app.footer(
+      "'bitshade COMMAND --help' says more of each. Results go to standard output,\n"
+      "everything else to standard error. Exit status: 0 done, 1 it could not be done,\n"
+      "2 the arguments make no sense.");
+  // (one call a line, in the order of --help)
+}
+
+int complain(int status, const std::string& sentence) {
+  std::cerr << "bitshade: " << sentence << '\n';
+  return status;
+}
+
+}  // namespace
 
 int run(int argc, const char* const* argv) {
-  CLI::App app{"bitshade: number formats through the whole pipeline of moment shadow maps", "bitshade"};
-  app.require_subcommand(1);
-  app.set_version_flag("--version", std::string("bitshade ") + BITSHADE_VERSION);
-  // (one call a line, in the order of --help)
-
+  standard_output output;
+  CLI::App app{"bitshade says what number formats cost moment shadow maps, in error and in time.",
+               "bitshade"};
   try {
-    app.parse(argc, argv);
+    declare(app);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& e) {  // --help and --version
+      app.exit(e, std::cout, std::cerr);
+    }
+    output.finish();
     return 0;
-  } catch (const CLI::CallForHelp& e) {
-    return app.exit(e);
-  } catch (const CLI::CallForAllHelp& e) {
-    return app.exit(e);
-  } catch (const CLI::CallForVersion& e) {
-    return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::cerr << "bitshade: " << e.what() << "; see 'bitshade --help'\n";
-    return 2;
+    return complain(2, explain(app, argc, argv, e));
   } catch (const usage_error& e) {
-    std::cerr << "bitshade: " << e.what() << '\n';
-    return 2;
+    return complain(2, e.what());
   } catch (const failure& e) {
-    std::cerr << "bitshade: " << e.what() << '\n';
-    return 1;
+    return complain(1, e.what());
   } catch (const std::bad_alloc&) {
-    std::cerr << "bitshade: out of memory: ask for a smaller --size or --view\n";
-    return 1;
+    return complain(1, "out of memory: ask for a smaller --size or --view");
   } catch (const std::exception& e) {
-    std::cerr << "bitshade: " << e.what() << '\n';
-    return 1;
+    return complain(1, e.what());
   }
 }
 
