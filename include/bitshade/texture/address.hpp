@@ -1,0 +1,37 @@
+// What lies beyond an image's edge.
+#pragma once
+
+namespace bitshade {
+
+enum class address { clamp, repeat, mirror, border };
+
+/// The texel that an index outside the image means.
+///
+///   clamp: the nearest edge; repeat: i mod size; mirror: 0 1 .. n-1 n-1 .. 1 0 0 1 ..
+///   border: -1 for every index outside, to be read as the border's value
+///
+/// Shapes   any int in, [0, size) or -1 out; size >= 1.
+/// Failure  none.
+/// Source   [Vulkan] "Wrapping Operation".
+constexpr int wrap(int i, int size, address mode) {
+  if (i >= 0 && i < size) return i;
+  switch (mode) {
+    case address::clamp:
+      return i < 0 ? 0 : size - 1;
+    case address::repeat: {
+      const int rest = i % size;
+      return rest < 0 ? rest + size : rest;
+    }
+    case address::mirror: {
+      // Reflecting -1 - i = ~i needs no wider integer, and i mod 2n = (i mod n) + n * (i / n odd).
+      const int j = i < 0 ? ~i : i;
+      const int rest = j % size;
+      return (j / size) % 2 == 0 ? rest : size - 1 - rest;
+    }
+    case address::border:
+      return -1;
+  }
+  return -1;
+}
+
+}  // namespace bitshade
