@@ -9,6 +9,8 @@ class App;
 namespace bitshade::command {
 
 // (one declaration a line, in the order of --help)
+void add_round(CLI::App& app);
+void add_formats(CLI::App& app);
 
 /// Parses the arguments and runs the command that they name; returns the exit status:
 /// 0 done, 1 it could not be done, 2 the arguments make no sense.

@@ -12,14 +12,14 @@ constexpr std::uint64_t mix64(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// 64 random bits for the counter-th rounding under a key (a seed).
+/// 64 random bits for the counter-th rounding under a key (a seed); `lane` tells the components of one thing apart.
 ///
-///   mix(mix(key + gamma) + gamma * counter),  gamma = 2^64 / golden ratio, odd
+///   mix(mix(key + gamma (lane + 1)) + gamma counter),  gamma = 2^64 / golden ratio, odd
 ///
-/// Two multiplications for each after the first, which depends on the key alone, so that it vectorises.
-constexpr std::uint64_t random_bits(std::uint64_t key, std::uint64_t counter) {
+/// The inner part depends on the key and lane alone: two multiplications a number, which vectorise.
+constexpr std::uint64_t random_bits(std::uint64_t key, std::uint64_t counter, std::uint64_t lane = 0) {
   constexpr std::uint64_t gamma = 0x9e3779b97f4a7c15u;
-  return mix64(mix64(key + gamma) + gamma * counter);
+  return mix64(mix64(key + gamma * (lane + 1)) + gamma * counter);
 }
 
 }  // namespace bitshade

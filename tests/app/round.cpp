@@ -1,0 +1,94 @@
+// The command as a script sees it: lines in, lines out, exit status.
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "support/catch.hpp"
+
+namespace {
+
+struct outcome {
+  std::string out;
+  int status = 0;
+};
+
+/// Runs `bitshade round` with a text as standard input; standard error joins standard output.
+outcome round_text(const std::string& input, const std::string& options) {
+  std::string path = (std::filesystem::temp_directory_path() / "bitshade_round_XXXXXX").string();
+  ::close(::mkstemp(path.data()));
+  std::ofstream(path, std::ios::binary) << input;
+  const std::string line = std::string(BITSHADE_COMMAND) + " round " + options + " < " + path + " 2>&1";
+  outcome result;
+  std::FILE* pipe = ::popen(line.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::array<char, 4096> buffer{};
+  for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    result.out.append(buffer.data(), n);
+  result.status = ::pclose(pipe) >> 8;
+  std::remove(path.c_str());
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("round answers each line with its value and bits") {
+  const outcome half = round_text("0.1\n1/3\n0x1.8p+1\n-inf\nnan\n-0\n", "--format half");
+  CHECK(half.status == 0);
+  CHECK(half.out ==
+        "0x1.998p-4 0x2e66\n0x1.554p-2 0x3555\n0x1.8p+1 0x4200\n-inf 0xfc00\nnan 0x7e00\n-0x0p+0 0x8000\n");
+  // The nearest binary64 of 1/65535 is not 1/65535; the ratio is, and no direction may move it.
+  for (const char* direction : {"up", "down", "to-odd", "toward-zero"})
+    CHECK(round_text("1/65535", std::string("--format unorm16 --rounding ") + direction).out ==
+          "0x1.000100010001p-16 0x0001\n");
+}
+
+TEST_CASE("round judges overflow on the value rounded without a limit") {
+  const std::string input = "65519.99999999999999999999999999999\n65520\n-1e1000000000\n";
+  CHECK(round_text(input, "--format half").out == "0x1.ffcp+15 0x7bff\ninf 0x7c00\n-inf 0xfc00\n");
+  CHECK(round_text(input, "--format half --rounding down").out ==
+        "0x1.ffcp+15 0x7bff\n0x1.ffcp+15 0x7bff\n-inf 0xfc00\n");
+  CHECK(round_text(input, "--format half --rounding toward-zero --overflow infinity").out ==
+        "0x1.ffcp+15 0x7bff\n0x1.ffcp+15 0x7bff\n-inf 0xfc00\n");
+  CHECK(round_text("inf\n449\n-465\n", "--format fp8_e4m3").out == "nan 0x7f\n0x1.cp+8 0x7e\n-nan 0xff\n");
+  CHECK(round_text("inf\n-465\n", "--format fp8_e4m3 --overflow saturate").out == "0x1.cp+8 0x7e\n-0x1.cp+8 0xfe\n");
+}
+
+TEST_CASE("round flushes what is subnormal after rounding, and only that") {
+  const std::string input = "0x1.ff8p-15\n-0x1.ff8p-15\n0x1.ffbp-15\n0x1.ffcp-15\n";
+  CHECK(round_text(input, "--format half --subnormal flush").out ==
+        "0x0p+0 0x0000\n-0x0p+0 0x8000\n0x0p+0 0x0000\n0x1p-14 0x0400\n");
+}
+
+TEST_CASE("round reads r11g11b10 three numbers a line") {
+  CHECK(round_text("1 -2 3e5\n", "--format r11g11b10").out == "0x1p+0 0x0p+0 inf 0xf80003c0\n");
+  const outcome two = round_text("1 2 3\n1 2\n", "--format r11g11b10");
+  CHECK(two.status == 1);
+  CHECK(two.out.find("line 2") != std::string::npos);
+}
+
+TEST_CASE("stochastic rounding replays from its seed") {
+  std::string input;
+  for (int i = 0; i < 4000; ++i) input += "0x1.004p+0\n";  // 1/256 of a step up: about 16 of the 4000
+  const outcome a = round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 7");
+  CHECK(a.out == round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 7").out);
+  CHECK(a.out != round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 8").out);
+}
+
+TEST_CASE("round names the line that it cannot read") {
+  for (const char* bad : {"abc", "", "1/0", "0x", "1e", "1..2", "--1", "1 2", "inf/2", "0x1p", "nan(1)"}) {
+    INFO("line: '" << bad << "'");
+    const outcome r = round_text("1\n" + std::string(bad) + "\n2\n", "--format half");
+    CHECK(r.status == 1);
+    CHECK(r.out.find("line 2:") != std::string::npos);
+    CHECK(r.out.find("0x1p+0 0x3c00\n") != std::string::npos);
+  }
+  CHECK(round_text("1\n", "--format bfoat16").status == 2);
+  CHECK(round_text("1\n", "--format bfoat16").out.find("bfloat16") != std::string::npos);
+  CHECK(round_text("1\n", "--format e12m3").out.find("2 <= X <= 11") != std::string::npos);
+  CHECK(round_text("1\n", "--format half --rounding upp").status == 2);
+}
