@@ -16,13 +16,17 @@ namespace bitshade {
 ///          kernels keep a fixed width; depths in [0,1] by the frame's metric; dt_du, dt_dv are
 ///          the receiver's tangent plane (depth per unit of u and v); du_dx .. dv_dy the screen
 ///          derivatives of (u, v), per pixel, from which a sampler takes its level and anisotropy.
+///
+/// A surface is one plane (a facet of a curved mesh), so that a texel with the receiver's own number
+/// cannot occlude it. A pixel without a receiver (surface 0) shows the background (diffuse 1), a
+/// plane that faces away from the light or contains its rays (diffuse 0), or one beyond the map.
 struct receiver {
   float u = 0, v = 0;
   float t = 0;
   float dt_du = 0, dt_dv = 0;
   float du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
   std::uint32_t surface = 0;  ///< the surface that it lies on; 0: no receiver at this pixel
-  float diffuse = 1;          ///< max(0, n.l), for the shaded picture alone
+  float diffuse = 1;          ///< max(0, n.l), for the shaded picture alone (see below)
 };
 
 /// A scene as its light and its camera see it.
