@@ -1,0 +1,224 @@
+#include "bitshade/arithmetic/bulk.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "bitshade/formats/random.hpp"
+#include "bitshade/formats/round_to.hpp"
+#include "bulk/float_environment.hpp"
+#include "bulk/make_plan.hpp"
+
+namespace bitshade::bulk {
+namespace {
+
+using bulk_kernels::chosen;
+using bulk_kernels::operation;
+using bulk_kernels::plan;
+using bulk_kernels::request;
+
+template <class T>
+constexpr char letter_of() {
+  if constexpr (std::is_same_v<T, float>) return 'f';
+  if constexpr (std::is_same_v<T, double>) return 'd';
+  return sizeof(T) == 1 ? 'b' : sizeof(T) == 2 ? 'h' : sizeof(T) == 4 ? 'w' : 'q';
+}
+
+/// The definition, one element after the other.
+template <operation What, class In, class Out>
+void define(const plan& p, const void* source, void* target, std::size_t n, std::size_t first) {
+  const In* in = static_cast<const In*>(source);
+  Out* out = static_cast<Out*>(target);
+  const bool draws = p.direction == rounding::stochastic;
+  for (std::size_t j = 0; j < n; ++j) {
+    const std::uint64_t random = draws ? random_bits(p.seed, p.counter + first + j) : 0;
+    if constexpr (What == operation::decode) {
+      out[j] = static_cast<Out>(decode(p.format, in[j], p.rule));
+    } else if constexpr (What == operation::encode) {
+      out[j] = static_cast<Out>(encode(p.format, in[j], p.rule, random));
+    } else {
+      out[j] = static_cast<Out>(round_to(p.format, in[j], p.rule, random));
+    }
+  }
+}
+
+chosen choose(const plan& p, request r, instruction_set set) {
+#if defined(BITSHADE_X86_64)
+  switch (set) {
+    case instruction_set::avx512: return bulk_kernels::avx512::choose(p, r);
+    case instruction_set::avx2: return bulk_kernels::avx2::choose(p, r);
+    case instruction_set::baseline: return bulk_kernels::sse2::choose(p, r);
+    default: break;
+  }
+#else
+  (void)p, (void)r, (void)set;
+#endif
+  return {};
+}
+
+/// One chunk on one thread.
+template <operation What, class In, class Out>
+void run(const plan& p, const In* in, Out* out, std::size_t n, instruction_set set) {
+  using direction = float_environment::direction;
+  const chosen direct = choose(p, {What, letter_of<In>(), letter_of<Out>()}, set);
+  if (direct.run) {
+    const float_environment environment(direct.toward_zero ? direction::toward_zero : direction::nearest);
+    return direct.run(p, in, out, n);
+  }
+  if constexpr (What == operation::round) {
+    // Encode and decode, a block at a time, where both have kernels.
+    constexpr std::size_t block = 512;
+    const chosen encoder = choose(p, {operation::encode, letter_of<In>(), 'q'}, set);
+    const chosen decoder = choose(p, {operation::decode, 'q', letter_of<Out>()}, set);
+    if (encoder.run && decoder.run) {
+      std::uint64_t codes[block];
+      plan part = p;
+      for (std::size_t j = 0; j < n; j += block) {
+        const std::size_t m = std::min(block, n - j);
+        {
+          const float_environment environment(encoder.toward_zero ? direction::toward_zero : direction::nearest);
+          encoder.run(part, in + j, codes, m);
+        }
+        const float_environment environment(direction::nearest);
+        decoder.run(part, codes, out + j, m);
+        advance(part, m);
+      }
+      return;
+    }
+  }
+  const float_environment environment(direction::nearest);
+  define<What, In, Out>(p, in, out, n, 0);
+}
+
+template <operation What, class In, class Out>
+void work(const encoding& e, const rules& r, std::span<const In> in, std::span<Out> out, const execution& how) {
+  if (in.size() != out.size()) throw std::invalid_argument("bitshade::bulk: the spans differ in size");
+  if (!is_valid(e)) throw std::invalid_argument("bitshade::bulk: the encoding is not valid");
+  if (r.random_bits < 1 || r.random_bits > 64) {
+    throw std::invalid_argument("bitshade::bulk: random_bits must be 1 to 64");
+  }
+  constexpr int code_bits = 8 * static_cast<int>(What == operation::encode ? sizeof(Out) : sizeof(In));
+  if (What != operation::round && e.width > code_bits) {
+    throw std::invalid_argument("bitshade::bulk: the encoding is wider than its codes' type");
+  }
+  if (!has(how.set)) throw std::invalid_argument("bitshade::bulk: this processor lacks that instruction set");
+  instruction_set set = how.set;
+  if (set == instruction_set::best) {
+    static const instruction_set widest = has(instruction_set::avx512)     ? instruction_set::avx512
+                                          : has(instruction_set::avx2)     ? instruction_set::avx2
+                                          : has(instruction_set::baseline) ? instruction_set::baseline
+                                                                           : instruction_set::scalar;
+    set = widest;
+  }
+  plan p;
+  {
+    const float_environment environment(float_environment::direction::nearest);
+    p = make_plan(e, r, how.seed, how.first_counter);
+  }
+  p.define = define<What, In, Out>;
+  // Whole cache lines of the narrowest type for each thread, and enough work to be worth its start.
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  const std::size_t workers = std::min<std::size_t>(std::max(1u, how.threads), (in.size() + grain - 1) / grain);
+  if (workers <= 1) return run<What>(p, in.data(), out.data(), in.size(), set);
+  const std::size_t share = (in.size() / workers + 63) / 64 * 64;
+  std::vector<std::jthread> threads;
+  threads.reserve(workers);
+  for (std::size_t begin = 0; begin < in.size(); begin += share) {
+    plan part = p;
+    advance(part, begin);
+    const std::size_t n = std::min(share, in.size() - begin);
+    threads.emplace_back([=] { run<What>(part, in.data() + begin, out.data() + begin, n, set); });
+  }
+}
+
+}  // namespace
+
+bool has(instruction_set set) {
+  switch (set) {
+    case instruction_set::best:
+    case instruction_set::scalar: return true;
+#if defined(BITSHADE_X86_64)
+    case instruction_set::baseline: return true;
+    case instruction_set::avx2:
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+    case instruction_set::avx512:
+      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+             __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+#else
+    default: return false;
+#endif
+  }
+  return false;
+}
+
+void round(const encoding& to, const rules& r, std::span<const float> in, std::span<float> out,
+           const execution& how) {
+  work<operation::round>(to, r, in, out, how);
+}
+void round(const encoding& to, const rules& r, std::span<const double> in, std::span<double> out,
+           const execution& how) {
+  work<operation::round>(to, r, in, out, how);
+}
+
+void encode(const encoding& to, const rules& r, std::span<const float> in, std::span<std::uint8_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+void encode(const encoding& to, const rules& r, std::span<const float> in, std::span<std::uint16_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+void encode(const encoding& to, const rules& r, std::span<const float> in, std::span<std::uint32_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+void encode(const encoding& to, const rules& r, std::span<const double> in, std::span<std::uint8_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+void encode(const encoding& to, const rules& r, std::span<const double> in, std::span<std::uint16_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+void encode(const encoding& to, const rules& r, std::span<const double> in, std::span<std::uint32_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+void encode(const encoding& to, const rules& r, std::span<const double> in, std::span<std::uint64_t> out,
+            const execution& how) {
+  work<operation::encode>(to, r, in, out, how);
+}
+
+void decode(const encoding& from, const rules& r, std::span<const std::uint8_t> in, std::span<float> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+void decode(const encoding& from, const rules& r, std::span<const std::uint16_t> in, std::span<float> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+void decode(const encoding& from, const rules& r, std::span<const std::uint32_t> in, std::span<float> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+void decode(const encoding& from, const rules& r, std::span<const std::uint8_t> in, std::span<double> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+void decode(const encoding& from, const rules& r, std::span<const std::uint16_t> in, std::span<double> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+void decode(const encoding& from, const rules& r, std::span<const std::uint32_t> in, std::span<double> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+void decode(const encoding& from, const rules& r, std::span<const std::uint64_t> in, std::span<double> out,
+            const execution& how) {
+  work<operation::decode>(from, r, in, out, how);
+}
+
+}  // namespace bitshade::bulk

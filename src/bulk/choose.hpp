@@ -1,0 +1,196 @@
+// Which loop a request gets, for one instruction set.
+#pragma once
+
+#include "bulk/loops.hpp"
+
+namespace bitshade::bulk_kernels {
+
+template <rounding D>
+struct direction_constant {
+  static constexpr rounding value = D;
+};
+
+/// Calls f with the direction as a constant.
+template <bool HasRandom, class F>
+chosen with_direction(rounding d, F f) {
+  switch (d) {
+    case rounding::nearest_even: return f(direction_constant<rounding::nearest_even>{});
+    case rounding::nearest_away: return f(direction_constant<rounding::nearest_away>{});
+    case rounding::toward_zero: return f(direction_constant<rounding::toward_zero>{});
+    case rounding::up: return f(direction_constant<rounding::up>{});
+    case rounding::down: return f(direction_constant<rounding::down>{});
+    case rounding::to_odd: return f(direction_constant<rounding::to_odd>{});
+    case rounding::stochastic:
+      if constexpr (HasRandom) return f(direction_constant<rounding::stochastic>{});
+  }
+  return {};
+}
+
+/// Calls f with a value of the code type.
+template <bool Wide, class F>
+chosen with_code(char letter, F f) {
+  switch (letter) {
+    case 'b': return f(std::uint8_t{});
+    case 'h': return f(std::uint16_t{});
+    case 'w': return f(std::uint32_t{});
+    case 'q':
+      if constexpr (Wide) return f(std::uint64_t{});
+  }
+  return {};
+}
+
+template <class V, reach Reach, class Io>
+chosen choose_round_binary(const plan& p) {
+  if (p.plain && p.direction == rounding::nearest_even) {
+    if (p.special == specials::single_nan) {
+      if constexpr (Reach == reach::narrow) {
+        return {round_binary<V, Reach, rounding::nearest_even, shape::plain_no_inf, Io>, false};
+      }
+    } else {
+      return {round_binary<V, Reach, rounding::nearest_even, shape::plain, Io>, false};
+    }
+  }
+  return with_direction<V::has_random>(p.direction, [](auto d) -> chosen {
+    constexpr rounding D = decltype(d)::value;
+    return {round_binary<V, Reach, D, shape::full, Io>, D != rounding::nearest_even};
+  });
+}
+
+template <class V, reach Reach, class In>
+chosen choose_encode_binary(const plan& p, char code) {
+  return with_code<sizeof(typename V::word) == 8>(code, [&](auto c) {
+    return with_direction<V::has_random>(p.direction, [](auto d) -> chosen {
+      constexpr rounding D = decltype(d)::value;
+      return {encode_binary<V, Reach, D, In, decltype(c)>, D != rounding::nearest_even};
+    });
+  });
+}
+
+/// binary16 as the instructions have it: NaNs kept, nothing flushed, overflow as the direction says.
+template <class V>
+chosen choose_half(const plan& p, request r) {
+  if (p.exponent_bits != 5 || p.fraction_bits != 10 || !p.has_sign || p.special != specials::ieee || p.canonical_nan) {
+    return {};
+  }
+  if (r.what == operation::decode) {
+    return p.flush_loads || r.in != 'h' || r.out != 'f' ? chosen{} : chosen{decode_half<V>, false};
+  }
+  const bool to_codes = r.what == operation::encode;
+  if (r.in != 'f' || r.out != (to_codes ? 'h' : 'f')) return {};
+  if (to_codes ? p.flush_codes : p.flush_values) return {};
+  if (p.infinite_code != p.max_code + 1) return {};
+  const bool up = p.overflow_code[0] != p.max_code, down = p.overflow_code[1] != p.max_code;
+  switch (p.direction) {  // the instruction's immediate operand: 0 to 3
+    case rounding::nearest_even:
+      if (up && down) return {to_codes ? encode_half<V, 0> : round_half<V, 0>, false};
+      break;
+    case rounding::down:
+      if (!up && down) return {to_codes ? encode_half<V, 1> : round_half<V, 1>, false};
+      break;
+    case rounding::up:
+      if (up && !down) return {to_codes ? encode_half<V, 2> : round_half<V, 2>, false};
+      break;
+    case rounding::toward_zero:
+      if (!up && !down) return {to_codes ? encode_half<V, 3> : round_half<V, 3>, false};
+      break;
+    default: break;
+  }
+  return {};
+}
+
+/// binary32 lanes: formats that binary32 holds, norms and fixed point below 2^22, float in and out.
+template <class V>
+chosen choose_single(const plan& p, request r) {
+  if (r.in == 'd' || r.out == 'd' || r.in == 'q' || r.out == 'q') return {};
+  const bool decoding = r.what == operation::decode;
+  if (p.kind != family::binary) {
+    if constexpr (V::has_fma) {
+      if (p.width > 22) return {};
+      if (decoding) {
+        return with_code<false>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, false}; });
+      }
+      if (p.direction != rounding::nearest_even) return {};
+      if (r.what == operation::round) return {round_norm<V, float>, false};
+      return with_code<false>(r.out, [](auto c) -> chosen {
+        return {encode_norm<V, rounding::nearest_even, float, decltype(c)>, false};
+      });
+    }
+    return {};
+  }
+  if constexpr (V::has_half) {
+    const chosen half = choose_half<V>(p, r);
+    if (half.run) return half;
+  }
+  if (!p.has_sign && p.width == 32) return {};  // magnitudes are compared as signed integers
+  const auto with = [&]<reach Reach>() -> chosen {
+    if (r.what == operation::round) return choose_round_binary<V, Reach, float>(p);
+    if (r.what == operation::encode) return choose_encode_binary<V, Reach, float>(p, r.out);
+    if constexpr (Reach != reach::wider) {
+      return with_code<false>(r.in, [](auto c) -> chosen { return {decode_binary<V, Reach, decltype(c), float>, false}; });
+    }
+    return {};
+  };
+  if (p.exponent_bits < 8 && p.fraction_bits <= (decoding ? 23 : 22)) return with.template operator()<reach::narrow>();
+  // A format without infinities counts on where binary32 has its own.
+  const bool beyond = p.special == specials::single_nan && decoding;
+  if (p.exponent_bits == 8 && p.fraction_bits <= 23 && !beyond) return with.template operator()<reach::equal>();
+  if (p.exponent_bits > 8 && p.fraction_bits <= 22) return with.template operator()<reach::wider>();
+  return {};
+}
+
+/// binary64 lanes: everything that fits them, from and to float as well.
+template <class V>
+chosen choose_double(const plan& p, request r) {
+  const bool decoding = r.what == operation::decode;
+  if (p.kind != family::binary) {
+    if (p.width > 50) return {};
+    if (decoding) {
+      if (r.out == 'd') {
+        return with_code<true>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), double>, false}; });
+      }
+      return with_code<true>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, false}; });
+    }
+    if (r.what == operation::round) {
+      if (p.direction != rounding::nearest_even) return {};
+      return r.in == 'd' ? chosen{round_norm<V, double>, false} : chosen{round_norm<V, float>, false};
+    }
+    // The discarded part must be exact for the random bits to meet it: 24 + 29 bits are.
+    if (p.direction == rounding::stochastic && (r.in == 'd' || p.width > 29)) return {};
+    return with_code<true>(r.out, [&](auto c) {
+      return with_direction<true>(p.direction, [&](auto d) -> chosen {
+        constexpr rounding D = decltype(d)::value;
+        constexpr bool toward_zero = D != rounding::nearest_even;
+        if (r.in == 'd') return {encode_norm<V, D, double, decltype(c)>, toward_zero};
+        return {encode_norm<V, D, float, decltype(c)>, toward_zero};
+      });
+    });
+  }
+  const auto with = [&]<reach Reach>() -> chosen {
+    switch (r.what) {
+      case operation::round:
+        // What binary32 cannot hold is rounded to nearest at the store; where the store follows the kernel's
+        // direction, such formats are encoded and decoded instead.
+        if (!V::stores_to_nearest && r.out == 'f' && p.direction != rounding::nearest_even &&
+            (p.exponent_bits > 8 || p.fraction_bits > 23)) {
+          return {};
+        }
+        return r.in == 'd' ? choose_round_binary<V, Reach, double>(p) : choose_round_binary<V, Reach, float>(p);
+      case operation::encode:
+        return r.in == 'd' ? choose_encode_binary<V, Reach, double>(p, r.out)
+                           : choose_encode_binary<V, Reach, float>(p, r.out);
+      case operation::decode:
+        return with_code<true>(r.in, [&](auto c) -> chosen {
+          if (r.out == 'd') return {decode_binary<V, Reach, decltype(c), double>, false};
+          return {decode_binary<V, Reach, decltype(c), float>, false};
+        });
+    }
+    return {};
+  };
+  if (!p.has_sign && p.width == 64) return {};
+  if (p.exponent_bits < 11 && p.fraction_bits <= (decoding ? 52 : 51)) return with.template operator()<reach::narrow>();
+  const bool beyond = p.special == specials::single_nan && decoding;
+  if (p.exponent_bits == 11 && !beyond) return with.template operator()<reach::equal>();
+  return {};
+}
+
+}  // namespace bitshade::bulk_kernels

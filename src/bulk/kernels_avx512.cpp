@@ -1,0 +1,12 @@
+#include "bulk/lanes_avx512.hpp"
+
+#include "bulk/choose.hpp"
+
+namespace bitshade::bulk_kernels::avx512 {
+
+chosen choose(const plan& p, request r) {
+  const chosen narrow = choose_single<lanes32>(p, r);
+  return narrow.run ? narrow : choose_double<lanes64>(p, r);
+}
+
+}  // namespace bitshade::bulk_kernels::avx512
