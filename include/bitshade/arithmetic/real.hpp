@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "bitshade/arithmetic/carrier.hpp"
+#include "bitshade/formats/round_to.hpp"
 
 namespace bitshade {
 
