@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <functional>
 
 #include "io/error.hpp"
 #include "io/numbers.hpp"
@@ -33,34 +34,41 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
   auto options = std::make_shared<scene_options>();
   auto* const o = options.get();
   // The application owns the callbacks, and with them the options.
-  const auto text = [&](const std::string& name, const std::string& meaning,
-                        const std::string& type, std::function<void(const std::string&)> take) {
-    app.add_option_function<std::string>(
-           name, [options, take](const std::string& value) { take(value); }, meaning)
+  const auto add = [&]<class T>(const std::string& name, const std::string& meaning,
+                                const std::string& type, std::function<void(const T&)> take) {
+    return app
+        .add_option_function<T>(
+            name,
+            [options, name, take](const T& value) {
+              options->given.insert(name);
+              take(value);
+            },
+            meaning)
         ->type_name(type)
         ->group("Scene");
   };
-  app.add_option("--size", o->map_size, "texels along each side of the depth map")
-      ->capture_default_str()
-      ->group("Scene");
+  const auto text = [&](const std::string& name, const std::string& meaning,
+                        const std::string& type, std::function<void(const std::string&)> take) {
+    add(name, meaning, type, std::move(take));
+  };
+  add("--size", "texels along each side of the depth map", "N",
+      std::function([o](const int& size) { o->map_size = size; }))
+      ->default_str(std::to_string(o->map_size));
   text("--view", "pixels of the picture (default 960x600)", "WxH",
        [o](const std::string& value) { std::tie(o->view_width, o->view_height) = size_of(value); });
-  app.add_option_function<std::vector<std::string>>(
-         "--param",
-         [o](const std::vector<std::string>& list) {
-           for (const auto& one : list) {
-             const std::size_t equals = one.find('=');
-             if (equals == 0 || equals == std::string::npos) {
-               throw usage_error("--param takes NAME=NUMBER, but not '" + one + "'");
-             }
-             if (!o->parameters.emplace(one.substr(0, equals), one.substr(equals + 1)).second) {
-               throw usage_error("--param " + one.substr(0, equals) + " is given twice; keep one");
-             }
-           }
-         },
-         "a parameter of an embedded scene, may be repeated ('bitshade depth --list' names them)")
-      ->type_name("NAME=NUMBER")
-      ->group("Scene");
+  add("--param", "a parameter of the scene, may be repeated ('bitshade depth --list' names them)",
+      "NAME=NUMBER", std::function([o](const std::vector<std::string>& list) {
+        for (const auto& one : list) {
+          const std::size_t equals = one.find('=');
+          if (equals == 0 || equals == std::string::npos) {
+            throw usage_error("--param takes NAME=NUMBER, but not '" + one + "'");
+          }
+          if (!o->parameters.emplace(one.substr(0, equals), one.substr(equals + 1)).second) {
+            throw usage_error("--param " + one.substr(0, equals) + " is given twice; keep one");
+          }
+        }
+      }))
+      ->allow_extra_args(false);
   text("--metric",
        "what the map stores: linear, plane, distance, projected or vertex (default linear)", "NAME",
        [o](const std::string& value) { o->metric = metric_named(value); });
@@ -90,8 +98,10 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
          }
          o->camera = camera;
        });
-  text("--receivers", "with a captured depth map: the receivers' depths as a second image", "FILE",
-       [o](const std::string& value) { o->receivers = value; });
+  text("--receivers",
+       "with a captured depth map: a plane at its deepest depth (the default), the map's own "
+       "surface, a plane at a depth, or a second depth image",
+       "plane|self|DEPTH|FILE", [o](const std::string& value) { o->receivers = value; });
   text("--channel", "which channel of an EXR or a colour PNG holds the depth", "NAME",
        [o](const std::string& value) { o->channel = value; });
   text("--depth-range", "the captured map's own numbers that mean 0 and 1", "NEAR,FAR",
@@ -101,25 +111,26 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
            throw usage_error("--depth-range takes two different depths, but not '" + value + "'");
          o->depth_range = {n[0], n[1]};
        });
-  app.add_flag(
-         "--mask-invalid", o->mask_invalid,
+  app.add_flag_callback(
+         "--mask-invalid",
+         [options] {
+           options->given.insert("--mask-invalid");
+           options->mask_invalid = true;
+         },
          "take NaN, infinite and out-of-range depths as never drawn, instead of refusing them")
       ->group("Scene");
-  app.add_option("--seed", o->seed, "seed of whatever is random in the scene")
-      ->capture_default_str()
-      ->group("Scene");
-  app.add_option_function<int>(
-         "--threads",
-         [o](int count) {
-           if (count < 0 || count > 4096) {
-             throw usage_error("--threads takes 1 to 4096, or 0 for all cores, but not " +
-                               std::to_string(count));
-           }
-           o->threads = count;
-         },
-         "threads to use; 0 for all cores (the result is the same)")
-      ->type_name("N")
-      ->group("Scene");
+  add("--seed", "seed of whatever is random in the scene", "N",
+      std::function([o](const std::uint64_t& seed) { o->seed = seed; }))
+      ->default_str(std::to_string(o->seed));
+  add("--threads", "threads to use, 0 for all cores (the result is the same)", "N",
+      std::function([o](const int& count) {
+        if (count < 0 || count > 4096) {
+          throw usage_error("--threads takes 1 to 4096, or 0 for all cores, but not " +
+                            std::to_string(count));
+        }
+        o->threads = count;
+      }))
+      ->default_str("0");
   return options;
 }
 

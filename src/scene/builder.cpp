@@ -20,6 +20,26 @@ void add_face(scene& s, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::
   s.surfaces.insert(s.surfaces.end(), 2, surface);
 }
 
+/// The corners of a level regular polygon.
+std::vector<std::uint32_t> ring(scene& s, glm::dvec3 centre, double radius, int sides) {
+  std::vector<std::uint32_t> corners;
+  for (int i = 0; i < sides; ++i) {
+    const turn angle(static_cast<double>(i) / sides);
+    corners.push_back(
+        add_vertex(s, centre + glm::dvec3(radius * angle.cosine, 0, radius * angle.sine)));
+  }
+  return corners;
+}
+
+/// A convex polygon in one plane: one surface.
+void add_fan(scene& s, const std::vector<std::uint32_t>& corners) {
+  const std::uint32_t surface = new_surface(s);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    s.triangles.emplace_back(corners[0], corners[i], corners[i + 1]);
+    s.surfaces.push_back(surface);
+  }
+}
+
 }  // namespace
 
 void add_quad(scene& s, glm::dvec3 origin, glm::dvec3 a, glm::dvec3 b) {
@@ -51,22 +71,17 @@ void add_block(scene& s, double x0, double x1, double z0, double z1, double bott
 }
 
 void add_prism(scene& s, glm::dvec3 centre, double radius, double bottom, double top, int sides) {
-  std::vector<std::uint32_t> low, high;
-  for (int i = 0; i < sides; ++i) {
-    const turn angle(static_cast<double>(i) / sides);
-    const double x = centre.x + radius * angle.cosine, z = centre.z + radius * angle.sine;
-    low.push_back(add_vertex(s, {x, bottom, z}));
-    high.push_back(add_vertex(s, {x, top, z}));
-  }
+  const auto low = ring(s, {centre.x, bottom, centre.z}, radius, sides);
+  const auto high = ring(s, {centre.x, top, centre.z}, radius, sides);
   const auto count = static_cast<std::size_t>(sides);
   for (std::size_t i = 0; i < count; ++i) {
     add_face(s, low[i], low[(i + 1) % count], high[(i + 1) % count], high[i]);
   }
-  const std::uint32_t lid = new_surface(s);
-  for (std::size_t i = 1; i + 1 < count; ++i) {
-    s.triangles.emplace_back(high[0], high[i], high[i + 1]);
-    s.surfaces.push_back(lid);
-  }
+  add_fan(s, high);
+}
+
+void add_disc(scene& s, glm::dvec3 centre, double radius, int sides) {
+  add_fan(s, ring(s, centre, radius, sides));
 }
 
 void light_from_above(scene& s, double half, double top, double range) {

@@ -26,6 +26,9 @@ void add_block(scene& scene, double x0, double x1, double z0, double z1, double 
 void add_prism(scene& scene, glm::dvec3 centre, double radius, double bottom, double top,
                int sides);
 
+/// A level polygon of `sides` sides around `centre`: one surface.
+void add_disc(scene& scene, glm::dvec3 centre, double radius, int sides);
+
 /// A directional light straight down over the window [-half, half]^2 around (x, z) = 0: a point at
 /// height y has depth (top - y) / range.
 void light_from_above(scene& scene, double half, double top, double range);

@@ -1,14 +1,73 @@
 // Whatever the user named: an embedded scene, a mesh or a captured depth map.
-#include "scene/embedded.hpp"
+#include <algorithm>
+
+#include "io/depth_file.hpp"
+#include "io/error.hpp"
+#include "io/nearest.hpp"
 #include "scene/light.hpp"
+#include "scene/scene.hpp"
 
 namespace bitshade {
+namespace {
 
-frame load_input(const std::string& name, const scene_options& options) {
-  scene s = build_scene(name, options);
+/// Refuses an option that means nothing for this kind of input.
+void refuse(const scene_options& options, std::initializer_list<const char*> meaningless,
+            const std::string& kind, const std::string& cure) {
+  for (const char* option : meaningless) {
+    if (options.given.contains(option)) {
+      throw usage_error(std::string(option) + " means nothing for " + kind + ": " + cure);
+    }
+  }
+}
+
+void refuse_captured(const scene_options& options, const std::string& kind) {
+  refuse(options, {"--receivers", "--channel", "--depth-range", "--mask-invalid"}, kind,
+         "leave it out, it is for captured depth maps");
+}
+
+void place_light(scene& s, const scene_options& options) {
+  if (options.light_direction && options.light_position) {
+    throw usage_error("--light and --light-position contradict each other: keep one of them");
+  }
   if (options.light_direction) aim_directional_light(s, *options.light_direction);
   if (options.light_position) aim_point_light(s, *options.light_position);
-  return build_frame(s, options);
+}
+
+[[noreturn]] void nothing_of_that_name(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const auto& info : known_scenes()) names.push_back(info.name);
+  const bool file_like = name.find_first_of("./\\") != std::string::npos;
+  throw usage_error(file_like
+                        ? name +
+                              " is neither a mesh (.obj, .glb) nor a captured depth map (.exr, "
+                              ".png, .pfm, .npy): check its ending"
+                        : "unknown scene '" + name + "': " + suggest(name, names));
+}
+
+}  // namespace
+
+frame load_input(const std::string& name, const scene_options& options) {
+  const auto& infos = known_scenes();
+  if (std::any_of(infos.begin(), infos.end(), [&](const auto& i) { return i.name == name; })) {
+    refuse_captured(options, "an embedded scene");
+    scene s = build_scene(name, options);
+    place_light(s, options);
+    return build_frame(s, options);
+  }
+  if (is_mesh_file(name)) {
+    refuse_captured(options, "a mesh");
+    scene s = load_mesh(name, options);
+    place_light(s, options);
+    return build_frame(s, options);
+  }
+  if (is_depth_file(name)) {
+    refuse(options,
+           {"--size", "--param", "--light", "--light-position", "--light-range", "--camera",
+            "--metric", "--seed"},
+           "a captured depth map", "leave it out, the map has been made already");
+    return load_captured(name, options);
+  }
+  nothing_of_that_name(name);
 }
 
 }  // namespace bitshade

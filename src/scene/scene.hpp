@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -79,12 +80,16 @@ struct scene_options {
   std::optional<glm::dvec3> light_position;       ///< --light-position x,y,z
   std::optional<camera_view> camera;              ///< --camera ex,ey,ez,tx,ty,tz[,degrees]
   std::string light_range;                        ///< --light-range tight | near,far
-  std::filesystem::path receivers;                ///< --receivers FILE, with a captured depth map
-  std::string channel;                            ///< --channel NAME, of an EXR or a colour PNG
+  std::string receivers;  ///< --receivers FILE | plane | self | DEPTH, with a captured depth map
+  std::string channel;    ///< --channel NAME, of an EXR or a colour PNG
   std::optional<std::pair<double, double>> depth_range;  ///< --depth-range near,far
   bool mask_invalid = false;                             ///< --mask-invalid
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: all cores
+
+  /// The options that the user gave, such as "--size": what cannot go together is found by them,
+  /// and a captured map keeps its own sizes unless they are here.
+  std::set<std::string> given;
 };
 
 /// One named number of an embedded scene.
@@ -112,6 +117,9 @@ const std::vector<scene_info>& known_scenes();
 ///          value outside its range.
 scene build_scene(const std::string& name, const scene_options& options);
 
+/// Whether `path` ends in .obj or .glb, in either case.
+bool is_mesh_file(const std::filesystem::path& path);
+
 /// Reads a mesh (.obj, .glb), puts a ground plane under it, a light and a camera around it.
 ///
 /// Failure  failure for a file that is missing, broken, empty, or without finite triangles.
@@ -121,6 +129,14 @@ scene load_mesh(const std::filesystem::path& file, const scene_options& options)
 ///
 /// Failure  usage_error for sizes of zero or beyond memory, before anything is allocated.
 frame build_frame(const scene& scene, const scene_options& options);
+
+/// A captured depth map as a frame, with receivers as options.receivers says: `plane` (the default:
+/// a plane across the light at the deepest depth drawn), a number (the plane's depth), `self` (the
+/// map's own surface seen from the light), or a second depth image, a receiver at each pixel.
+///
+/// Failure  as read_depths, and failure for NaN, infinite or out-of-range depths unless
+///          options.mask_invalid, with their count and the first one's place.
+frame load_captured(const std::filesystem::path& file, const scene_options& options);
 
 /// Whatever the user named: an embedded scene, a mesh or a captured depth map.
 ///
