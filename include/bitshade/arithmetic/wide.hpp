@@ -66,6 +66,19 @@ struct wide {
     return result;
   }
 
+  friend constexpr wide operator>>(const wide& a, int bits) {
+    wide result;
+    const auto whole = static_cast<std::size_t>(bits / 64);
+    const int part = bits % 64;
+    for (std::size_t i = 0; i + whole < Limbs; ++i) {
+      result.limb[i] = a.limb[i + whole] >> part;
+      if (part != 0 && i + whole + 1 < Limbs) {
+        result.limb[i] |= a.limb[i + whole + 1] << (64 - part);
+      }
+    }
+    return result;
+  }
+
   friend constexpr bool operator==(const wide&, const wide&) = default;
   friend constexpr std::strong_ordering operator<=>(const wide& a, const wide& b) {
     for (std::size_t i = Limbs; i-- > 0;) {
@@ -97,6 +110,9 @@ constexpr wide<A + B> operator*(const wide<A>& a, const wide<B>& b) {
   }
   return product;
 }
+
+/// Limbs that hold `bits` bits.
+constexpr std::size_t limbs_for(int bits) { return static_cast<std::size_t>((bits + 63) / 64); }
 
 /// The same number in fewer limbs; the caller proves that the others are zero.
 template <std::size_t To, std::size_t From>

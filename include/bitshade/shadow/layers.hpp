@@ -100,31 +100,38 @@ int uniform_layer_of(const T& t, int layers) {
   return whole < scaled ? whole : whole - 1;
 }
 
-/// Two adjacent layers and the share of the further one.
-template <class T>
-struct layer_blend {
-  int near = 0, far = 0;
-  T share{};  ///< 0: the near layer alone
+/// Two adjacent layers that a receiver blends: split `near + 1` lies between them.
+struct layer_pair {
+  int near = 0, far = 0;  ///< equal where the receiver looks up its own layer alone
 };
 
-/// How a receiver blends layers across their overlap [s - delta, s + delta]: linearly in t.
+/// The layers of a receiver whose transition is blended: those beside a split that lies closer
+/// than delta.
 ///
-/// Shapes   near == far, share 0 outside every overlap; where two overlaps meet, the nearer split
-///          counts, and of two at the same distance the one nearer to the light.
-/// Policy   every operation is T's.
+/// Shapes   where two overlaps meet the nearer split counts, and of two at the same distance the
+///          one nearer to the light.
+/// Policy   comparisons in T.
 /// Source   [LauritzenMcCool08] section 4.3.
 template <class T>
-layer_blend<T> blend_of(const T& t, std::span<const double> splits, double overlap) {
+layer_pair blended_layers(const T& t, std::span<const double> splits, double overlap) {
   const int own = layer_of(t, splits);
   const T delta = static_cast<T>(on_split_grid(overlap));
   const auto split = [&](int i) { return static_cast<T>(splits[static_cast<std::size_t>(i)]); };
   const auto last = static_cast<int>(splits.size()) - 2;
   const bool below = own > 0 && t - split(own) < delta;
   const bool above = own < last && split(own + 1) - t < delta;
-  if (!below && !above) return {own, own, static_cast<T>(0)};
+  if (!below && !above) return {own, own};
   const bool use_below = below && (!above || t - split(own) <= split(own + 1) - t);
-  const int at = use_below ? own : own + 1;
-  return {at - 1, at, (t - (split(at) - delta)) / (delta + delta)};
+  return use_below ? layer_pair{own - 1, own} : layer_pair{own, own + 1};
+}
+
+/// The share of the further layer across the overlap of a split: 0 at s - delta, 1 at s + delta.
+///
+/// Policy   every operation is T's; s - delta and 2 delta are exact, so the share lies in [0, 1].
+template <class T>
+T transition_share(const T& t, double split, double overlap) {
+  const double delta = on_split_grid(overlap);
+  return (t - static_cast<T>(split - delta)) / static_cast<T>(delta + delta);
 }
 
 }  // namespace bitshade

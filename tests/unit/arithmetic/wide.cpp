@@ -60,6 +60,7 @@ TEST_CASE("wide integers add, subtract, multiply, shift and compare as integers 
     REQUIRE(big(a * b) == x * y);
     const int shift = static_cast<int>(random() % 320);
     REQUIRE(big(a << shift) == (x << shift) % modulus);
+    REQUIRE(big(a >> shift) == x >> shift);
     REQUIRE(a.bit_length() == (x == 0 ? 0 : static_cast<int>(msb(x)) + 1));
   }
 }

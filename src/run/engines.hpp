@@ -1,0 +1,30 @@
+// The techniques' runs, one translation unit each, so that no file instantiates them all.
+#pragma once
+
+#include "run/lookup.hpp"
+#include "run/pipeline.hpp"
+#include "run/storage.hpp"
+
+namespace bitshade {
+
+/// A run under way: what every technique's function needs, and what it fills.
+struct run_context {
+  const frame& scene;
+  const configuration& how;
+  const plan& effects;
+  const layer_table& layers;
+  const storage_format& storage;  ///< nothing to be read where `how` is exact
+  lookup look;
+  int threads = 0;
+  cell& result;
+};
+
+void run_variance_native(run_context& run);  ///< vsm, lvsm in binary32 or binary64
+void run_variance_exact(run_context& run);   ///< vsm, lvsm in integers of proven width
+void run_depth_native(run_context& run);     ///< hard, pcf in binary32 or binary64
+void run_depth_exact(run_context& run);      ///< hard, pcf without rounding
+
+/// The hard test of the map as it is: 1 where x >= t at the nearest texel.
+std::vector<double> hard_exact(const frame& scene, int threads);
+
+}  // namespace bitshade

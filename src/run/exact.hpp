@@ -1,0 +1,311 @@
+// A layer of a variance shadow map in exact arithmetic, as integers of proven width.
+//
+// In exact arithmetic p does not change when a layer's depths are scaled, so a layer is evaluated
+// in units of clamp(x - near, 0, far - near), without its division and with the floor of the whole
+// depth range: sums and products of integers, until p = num / den is rounded once.
+//
+// Widths, with S the depths' fraction bits, E and F of the mip levels and of the lookup:
+//   y            S + 1 bits in units of 2^-S
+//   first        S + 49 + E          2^-(S + 48 + E)      blur weights: two passes of 2^-24
+//   second       2S + 49 + E         2^-(2S + 48 + E)
+//   looked up    + F, and 5 for the sum of up to 16 probes
+//   num, den     twice the looked-up first moment's, plus 1
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "bitshade/arithmetic/wide.hpp"
+#include "run/exact_grid.hpp"
+#include "run/lookup.hpp"
+#include "run/parallel.hpp"
+#include "run/pipeline.hpp"
+
+namespace bitshade {
+
+/// An exact light: num / den.
+template <std::size_t Limbs>
+struct fraction {
+  wide<Limbs> num, den;
+};
+
+/// S: fraction bits of depths; General: mip levels or several probes a lookup.
+template <int S, bool General>
+class exact_engine {
+ public:
+  static constexpr int level_bits = General ? 28 : 0;   // 14 levels of 2x2 means
+  static constexpr int lookup_bits = General ? 56 : 48;  // 2 x 24 of the texel grid, 8 of the level
+  static constexpr int probe_bits = General ? 5 : 0;
+  static constexpr int scale = 48 + level_bits + lookup_bits;
+  static constexpr std::size_t light_limbs = limbs_for(2 * (S + 1 + scale + probe_bits) + 1);
+  using depth_int = std::conditional_t<(S < 64), std::uint64_t, wide<limbs_for(S + 1)>>;
+  using first_int = std::conditional_t<(S + 49 + level_bits <= 128), uint128,
+                                       wide<limbs_for(S + 49 + level_bits)>>;
+  using second_int = std::conditional_t<(2 * S + 49 + level_bits <= 128), uint128,
+                                        wide<limbs_for(2 * S + 49 + level_bits)>>;
+  using light = fraction<light_limbs>;
+
+  exact_engine(const frame& scene, const configuration& how, const lookup& look, int threads,
+               cell& times)
+      : scene_(scene), how_(how), look_(look), threads_(threads), times_(times) {
+    for (const double w : blur_of(how).weights) blur_.push_back(on_grid(w, 24));
+  }
+
+  void generate(const interval& layer) {
+    const stopwatch watch(times_.map_seconds);
+    near_ = depth_of(static_cast<float>(layer.near));
+    width_ = depth_of(static_cast<float>(layer.far)) - near_;
+    levels_.clear();
+    levels_.emplace_back(scene_.depth.width, scene_.depth.height);
+    blur(levels_.front());
+    if (!look_.mips) return;
+    const int count = mip_levels(scene_.depth.width, scene_.depth.height);
+    for (int level = 1; level < count; ++level) levels_.push_back(halved(levels_.back()));
+  }
+
+  template <class Take>
+  void shade(std::span<const std::uint32_t> users, Take take) {
+    const stopwatch watch(times_.shade_seconds);
+    for_ranges(threads_, users.size(), 512, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        take(users[i], light_at(scene_.receivers[users[i]]));
+      }
+    });
+  }
+
+  static light darker(const light& a, const light& b) {
+    return b.num * a.den < a.num * b.den ? b : a;
+  }
+
+  fraction<2 * light_limbs + limbs_for(S + 2)> blended(const light& near, const light& far,
+                                                       const receiver& r, double split) const {
+    using share_int = wide<limbs_for(S + 2)>;
+    const double delta = on_split_grid(how_.overlap);
+    const share_int all(depth_of(static_cast<float>(2 * delta)));
+    const share_int share = share_int(depth_of(r.t)) -
+                            share_int(depth_of(static_cast<float>(std::max(0.0, split - delta)))) +
+                            share_int(depth_of(static_cast<float>(std::max(0.0, delta - split))));
+    const auto den = near.den * far.den;
+    return {near.num * far.den * (all - share) + far.num * near.den * share, den * all};
+  }
+
+  template <std::size_t Limbs>
+  double finished(const fraction<Limbs>& p) const {
+    const auto alpha = on_grid(on_split_grid(how_.bleeding_reduction), 24);
+    if (alpha == 0) return quotient_to_double(p.num, p.den);
+    const auto one = std::uint64_t{1} << 24;
+    const auto lit = p.num * wide<1>(one), lost = p.den * wide<1>(alpha);
+    return lit <= lost ? 0.0 : quotient_to_double(lit - lost, p.den * wide<1>(one - alpha));
+  }
+
+ private:
+  struct level_map {
+    level_map(int w, int h) : first(w, h), second(w, h) {}
+    image<first_int> first;
+    image<second_int> second;
+  };
+  template <class Int>
+  static Int times(const Int& a, std::uint64_t b) {
+    if constexpr (std::is_same_v<Int, uint128> || std::is_same_v<Int, std::uint64_t>) {
+      return a * b;
+    } else {
+      return narrowed<std::tuple_size_v<decltype(a.limb)>>(a * wide<1>(b));
+    }
+  }
+  template <std::size_t Limbs, class Int>
+  static wide<Limbs> widened(const Int& a) {
+    if constexpr (std::is_same_v<Int, uint128> || std::is_same_v<Int, std::uint64_t>) {
+      return wide<Limbs>(a);
+    } else {
+      return narrowed<Limbs>(a);
+    }
+  }
+
+  /// x * 2^S; binary32 holds every split and depth, and S bits hold their fractions.
+  static depth_int depth_of(float x) {
+    if constexpr (S < 64) {
+      return on_grid(static_cast<double>(x), S);
+    } else {
+      const auto bits = std::bit_cast<std::uint32_t>(x);
+      const std::uint32_t field = bits >> 23 & 0xff;
+      const std::uint64_t significand = (bits & 0x7fffff) | (field == 0 ? 0 : 0x800000);
+      return depth_int(significand) << (field == 0 ? 0 : static_cast<int>(field) - 1);
+    }
+  }
+  /// The layer's own depth, in units of 2^-S.
+  depth_int inside(float x) const {
+    const depth_int depth = depth_of(x > 0 ? (x < 1 ? x : 1.0F) : 0.0F);
+    if (depth < near_) return depth_int(std::uint64_t{0});
+    const depth_int above = depth - near_;
+    return above < width_ ? above : width_;
+  }
+  static second_int squared(const depth_int& y) {
+    if constexpr (std::is_same_v<second_int, uint128>) {
+      return static_cast<uint128>(y) * y;
+    } else if constexpr (S < 64) {
+      return second_int(static_cast<uint128>(y) * y);
+    } else {
+      return narrowed<std::tuple_size_v<decltype(second_int::limb)>>(y * y);
+    }
+  }
+
+  /// Two passes over the map; without a blur the texels are brought to the same unit.
+  void blur(level_map& out) {
+    const image<float>& depth = scene_.depth;
+    const int width = depth.width, height = depth.height;
+    const int radius = static_cast<int>(blur_.size() / 2);
+    image<first_int> across1(width, height);
+    image<second_int> across2(width, height);
+    for_rows(threads_, height, [&](int y) {
+      std::vector<depth_int> row(static_cast<std::size_t>(width));
+      std::vector<second_int> squares(row.size());
+      for (std::size_t x = 0; x < row.size(); ++x) {
+        row[x] = inside(depth.row(y)[x]);
+        squares[x] = squared(row[x]);
+      }
+      for (int x = 0; x < width; ++x) {
+        first_int sum1{};
+        second_int sum2{};
+        for (std::size_t k = 0; k < blur_.size(); ++k) {
+          const auto at = static_cast<std::size_t>(
+              wrap(x - radius + static_cast<int>(k), width, map_address));
+          sum1 += times(first_int(row[at]), blur_[k]);
+          sum2 += times(squares[at], blur_[k]);
+        }
+        across1.at(x, y) = sum1;
+        across2.at(x, y) = sum2;
+      }
+    });
+    for_rows(threads_, height, [&](int y) {
+      for (std::size_t k = 0; k < blur_.size(); ++k) {
+        const int from = wrap(y - radius + static_cast<int>(k), height, map_address);
+        for (int x = 0; x < width; ++x) {
+          out.first.at(x, y) += times(across1.at(x, from), blur_[k]);
+          out.second.at(x, y) += times(across2.at(x, from), blur_[k]);
+        }
+      }
+      if constexpr (level_bits > 0) {
+        for (auto& m : out.first.row(y)) m = m << level_bits;
+        for (auto& m : out.second.row(y)) m = m << level_bits;
+      }
+    });
+  }
+
+  /// 2x2 means, or means of two along an axis of one texel: divisions by 4 or 2 without a rest.
+  level_map halved(const level_map& from) const {
+    const int width = from.first.width, height = from.first.height;
+    level_map to(std::max(1, width / 2), std::max(1, height / 2));
+    const auto mean = [&](const auto& in, auto& out, int y) {
+      for (int x = 0; x < out.width; ++x) {
+        auto sum = in.at(2 * x % width, 2 * y % height);
+        int shift = 0;
+        if (width > 1) sum += in.at(2 * x + 1, 2 * y % height), ++shift;
+        if (height > 1) sum += in.at(2 * x % width, 2 * y + 1), ++shift;
+        if (width > 1 && height > 1) sum += in.at(2 * x + 1, 2 * y + 1);
+        out.at(x, y) = sum >> shift;
+      }
+    };
+    for_rows(threads_, to.first.height, [&](int y) {
+      mean(from.first, to.first, y);
+      mean(from.second, to.second, y);
+    });
+    return to;
+  }
+
+  struct sums {
+    wide<light_limbs> first, second;  // in units of 2^-(S + scale), 2^-(2S + scale)
+  };
+
+  /// Adds one lookup at (u, v) in steps of 2^-24, its weight `share` in units of 2^-(lookup - 48).
+  void add_lookup(sums& total, const level_map& level, std::int64_t u, std::int64_t v,
+                  std::uint64_t share) const {
+    constexpr std::int64_t one = std::int64_t{1} << 24;
+    const int width = level.first.width, height = level.first.height;
+    std::int64_t x = u * width, y = v * height, fx = 0, fy = 0;
+    if (look_.filter == texel_filter::bilinear) {
+      x -= one / 2;
+      y -= one / 2;
+      fx = x & (one - 1);
+      fy = y & (one - 1);
+    }
+    const auto column = [&](std::int64_t i) {
+      return wrap(static_cast<int>((x >> 24) + i), width, map_address);
+    };
+    const auto row = [&](std::int64_t j) {
+      return wrap(static_cast<int>((y >> 24) + j), height, map_address);
+    };
+    const auto add = [&](int i, int j, std::int64_t weight) {
+      if (weight == 0) return;
+      constexpr std::size_t limbs1 = limbs_for(S + 1 + scale + probe_bits);
+      constexpr std::size_t limbs2 = limbs_for(2 * S + 1 + scale + probe_bits);
+      const auto w = wide<1>(static_cast<std::uint64_t>(weight) * share);
+      const auto& m1 = level.first.at(i, j);
+      const auto& m2 = level.second.at(i, j);
+      total.first += widened<light_limbs>(narrowed<limbs1>(widened<limbs1>(m1) * w));
+      total.second += widened<light_limbs>(narrowed<limbs2>(widened<limbs2>(m2) * w));
+    };
+    add(column(0), row(0), (one - fx) * (one - fy));
+    add(column(1), row(0), fx * (one - fy));
+    add(column(0), row(1), (one - fx) * fy);
+    add(column(1), row(1), fx * fy);
+  }
+
+  light light_at(const receiver& r) const {
+    const auto u = static_cast<std::int64_t>(static_cast<double>(r.u) * 0x1p24);
+    const auto v = static_cast<std::int64_t>(static_cast<double>(r.v) * 0x1p24);
+    sums total;
+    std::uint64_t count = 1;
+    if constexpr (!General) {
+      add_lookup(total, levels_.front(), u, v, 1);
+    } else {
+      const auto probes = probes_of(r, scene_.depth.width, scene_.depth.height,
+                                    look_.max_anisotropy);
+      const auto blend =
+          blend_levels(probes.lambda, static_cast<int>(levels_.size()), map_mip_bits);
+      const auto far = on_grid(blend.fraction, map_mip_bits);
+      count = probes.offsets.size();
+      for (const auto& at : probes.offsets) {
+        const auto pu = u + static_cast<std::int64_t>(at.du * 0x1p24);
+        const auto pv = v + static_cast<std::int64_t>(at.dv * 0x1p24);
+        add_lookup(total, levels_[static_cast<std::size_t>(blend.near)], pu, pv, 256 - far);
+        if (far != 0) add_lookup(total, levels_[static_cast<std::size_t>(blend.far)], pu, pv, far);
+      }
+    }
+    // Everything times the number of probes, whose mean this is.
+    const auto n = wide<1>(count);
+    const auto by = [&](const wide<light_limbs>& a) { return narrowed<light_limbs>(a * n); };
+    const auto t = by(widened<light_limbs>(inside(r.t)) << scale);
+    if (t <= total.first) return {wide<light_limbs>(std::uint64_t{1}), wide<light_limbs>(std::uint64_t{1})};
+    const auto d = t - total.first;
+    auto v2 = (by(total.second) << scale) - narrowed<light_limbs>(total.first * total.first);
+    const auto floor = by(by(floor_));
+    if (v2 < floor) v2 = floor;
+    return {v2, v2 + narrowed<light_limbs>(d * d)};
+  }
+
+  /// min_variance in units of 2^-2(S + scale): an integer, since configurations refuse the tiny.
+  wide<light_limbs> floor_of(double min_variance) const {
+    if (min_variance == 0) return {};
+    const auto bits = std::bit_cast<std::uint64_t>(min_variance);
+    const int exponent = static_cast<int>(bits >> 52) - 1075;
+    const std::uint64_t significand = (bits & 0xfffffffffffff) | (std::uint64_t{1} << 52);
+    return wide<light_limbs>(significand) << (exponent + 2 * (S + scale));
+  }
+
+  const frame& scene_;
+  const configuration& how_;
+  const lookup look_;
+  const int threads_;
+  cell& times_;
+  std::vector<std::uint64_t> blur_;
+  const wide<light_limbs> floor_ = floor_of(how_.min_variance);
+  depth_int near_{}, width_{};
+  std::vector<level_map> levels_;
+};
+
+}  // namespace bitshade

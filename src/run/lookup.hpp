@@ -1,0 +1,77 @@
+// How a run's receivers read the map, decided once from the configuration and the plan.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bitshade/shadow/layers.hpp"
+#include "bitshade/study/configuration.hpp"
+#include "bitshade/study/frame.hpp"
+#include "bitshade/study/plan.hpp"
+#include "bitshade/texture/bilinear.hpp"
+#include "bitshade/texture/gaussian.hpp"
+#include "bitshade/texture/lod.hpp"
+#include "bitshade/texture/mip.hpp"
+
+namespace bitshade {
+
+/// The address mode of every map: a shadow map's border repeats its edge.
+inline constexpr address map_address = address::clamp;
+
+/// Mip levels are 2x2 means, so that exact levels stay dyadic for every size of map.
+inline constexpr mip_filter map_mips = mip_filter::box;
+
+/// Fraction bits of the level of detail ([D3D11] 7.18.10).
+inline constexpr int map_mip_bits = 8;
+
+/// What a lookup simulates.
+struct lookup {
+  texel_filter filter = texel_filter::bilinear;
+  bool mips = false;
+  int max_anisotropy = 1;
+
+  /// Whether a lookup is one bilinear or nearest fetch of level 0.
+  bool plain() const { return !mips && max_anisotropy == 1; }
+};
+
+inline lookup lookup_of(const configuration& how, const plan& effects) {
+  return {how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
+          effects.simulates("mips"), effects.simulates("anisotropy") ? how.max_anisotropy : 1};
+}
+
+/// The texel centres' neighbours and weights of a plain lookup; nearest reads one texel.
+template <class T>
+bilinear_taps<T> plain_taps(const lookup& how, const T& u, const T& v, int width, int height) {
+  if (how.filter == texel_filter::bilinear) return locate(u, v, width, height, map_address);
+  const int x = wrap(texel_floor(u * static_cast<T>(width)), width, map_address);
+  const int y = wrap(texel_floor(v * static_cast<T>(height)), height, map_address);
+  return {x, x, y, y, static_cast<T>(0), static_cast<T>(0)};
+}
+
+/// The probes of a receiver in a map of width x height, limited to `max_anisotropy`.
+inline probe_set probes_of(const receiver& r, int width, int height, int max_anisotropy) {
+  const gradients g{r.du_dx, r.dv_dx, r.du_dy, r.dv_dy};
+  return vulkan_probes(g, width, height, max_anisotropy);
+}
+
+inline kernel blur_of(const configuration& how) {
+  return gaussian_kernel(how.blurred() ? how.blur_taps : 1, how.blur_sigma);
+}
+
+inline bool has_receiver(const receiver& r) { return r.surface != 0; }
+
+/// Which layers a run generates and which receivers look each up, in rising order.
+struct layer_table {
+  std::vector<double> splits;
+  std::vector<interval> intervals;
+  std::vector<std::vector<std::uint32_t>> users;
+  std::vector<layer_pair> blends;  ///< of each receiver; empty where none blends
+  std::vector<int> own;                    ///< the layer of each receiver, -1 where there is none
+};
+
+/// Layers of the configuration under a plan.
+///
+/// A layer without users is not generated, unless the plan says to simulate empty layers.
+layer_table layers_of(const frame& scene, const configuration& how, const plan& effects);
+
+}  // namespace bitshade

@@ -1,0 +1,26 @@
+#include "run/engines.hpp"
+#include "run/exact.hpp"
+#include "run/layered_run.hpp"
+
+namespace bitshade {
+
+namespace {
+
+template <int S, bool General>
+void run_in(run_context& run) {
+  exact_engine<S, General> engine(run.scene, run.how, run.look, run.threads, run.result);
+  run_layers(engine, run.scene, run.how, run.layers, run.effects.simulates("layers without receivers"),
+             run.result);
+}
+
+}  // namespace
+
+void run_variance_exact(run_context& run) {
+  if (depth_bits_of(run.scene) <= common_depth_bits) {
+    run.look.plain() ? run_in<common_depth_bits, false>(run) : run_in<common_depth_bits, true>(run);
+  } else {
+    run.look.plain() ? run_in<any_depth_bits, false>(run) : run_in<any_depth_bits, true>(run);
+  }
+}
+
+}  // namespace bitshade
