@@ -38,7 +38,7 @@ struct fraction {
 template <int S, bool General>
 class exact_engine {
  public:
-  static constexpr int level_bits = General ? 28 : 0;   // 14 levels of 2x2 means
+  static constexpr int level_bits = General ? 28 : 0;    // 14 levels of 2x2 means
   static constexpr int lookup_bits = General ? 56 : 48;  // 2 x 24 of the texel grid, 8 of the level
   static constexpr int probe_bits = General ? 5 : 0;
   static constexpr int scale = 48 + level_bits + lookup_bits;
@@ -172,8 +172,8 @@ class exact_engine {
         first_int sum1{};
         second_int sum2{};
         for (std::size_t k = 0; k < blur_.size(); ++k) {
-          const auto at = static_cast<std::size_t>(
-              wrap(x - radius + static_cast<int>(k), width, map_address));
+          const auto at =
+              static_cast<std::size_t>(wrap(x - radius + static_cast<int>(k), width, map_address));
           sum1 += times(first_int(row[at]), blur_[k]);
           sum2 += times(squares[at], blur_[k]);
         }
@@ -263,8 +263,8 @@ class exact_engine {
     if constexpr (!General) {
       add_lookup(total, levels_.front(), u, v, 1);
     } else {
-      const auto probes = probes_of(r, scene_.depth.width, scene_.depth.height,
-                                    look_.max_anisotropy);
+      const auto probes =
+          probes_of(r, scene_.depth.width, scene_.depth.height, look_.max_anisotropy);
       const auto blend =
           blend_levels(probes.lambda, static_cast<int>(levels_.size()), map_mip_bits);
       const auto far = on_grid(blend.fraction, map_mip_bits);
@@ -280,7 +280,8 @@ class exact_engine {
     const auto n = wide<1>(count);
     const auto by = [&](const wide<light_limbs>& a) { return narrowed<light_limbs>(a * n); };
     const auto t = by(widened<light_limbs>(inside(r.t)) << scale);
-    if (t <= total.first) return {wide<light_limbs>(std::uint64_t{1}), wide<light_limbs>(std::uint64_t{1})};
+    if (t <= total.first)
+      return {wide<light_limbs>(std::uint64_t{1}), wide<light_limbs>(std::uint64_t{1})};
     const auto d = t - total.first;
     auto v2 = (by(total.second) << scale) - narrowed<light_limbs>(total.first * total.first);
     const auto floor = by(by(floor_));

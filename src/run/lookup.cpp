@@ -5,8 +5,7 @@ namespace bitshade {
 layer_table layers_of(const frame& scene, const configuration& how, const plan& effects) {
   layer_table table;
   table.splits = effects.splits;
-  table.intervals =
-      layer_intervals(table.splits, effects.simulates("overlap") ? how.overlap : 0.0);
+  table.intervals = layer_intervals(table.splits, effects.simulates("overlap") ? how.overlap : 0.0);
   table.users.resize(table.intervals.size());
   table.own.assign(scene.receivers.size(), -1);
   const bool blending = effects.simulates("transition");

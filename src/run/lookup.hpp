@@ -66,7 +66,7 @@ struct layer_table {
   std::vector<interval> intervals;
   std::vector<std::vector<std::uint32_t>> users;
   std::vector<layer_pair> blends;  ///< of each receiver; empty where none blends
-  std::vector<int> own;                    ///< the layer of each receiver, -1 where there is none
+  std::vector<int> own;            ///< the layer of each receiver, -1 where there is none
 };
 
 /// Layers of the configuration under a plan.

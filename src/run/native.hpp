@@ -25,22 +25,31 @@ class native_engine {
 
   native_engine(const frame& scene, const configuration& how, const storage_format& storage,
                 const lookup& look, int threads, cell& times)
-      : scene_(scene), how_(how), storage_(storage), look_(look), blur_(blur_of(how)),
-        threads_(threads), times_(times) {}
+      : scene_(scene),
+        how_(how),
+        storage_(storage),
+        look_(look),
+        blur_(blur_of(how)),
+        threads_(threads),
+        times_(times) {}
 
   /// Depth map -> moments -> store -> blur, stored between passes -> mips.
   void generate(const interval& layer) {
     layer_ = layer;
     const image<float>& depth = scene_.depth;
     image<T> moments(depth.width, depth.height, 2);
-    map_pass([&](int y) {
-      warp_row<T>(depth.row(y), layer, moments.row(y), 2);
-      square_row<T>(moments.row(y), 2);
-    }, moments);
+    map_pass(
+        [&](int y) {
+          warp_row<T>(depth.row(y), layer, moments.row(y), 2);
+          square_row<T>(moments.row(y), 2);
+        },
+        moments);
     if (blur_.weights.size() > 1) {
       image<T> across(depth.width, depth.height, 2);
-      map_pass([&](int y) { blur_row_x<T>(moments, blur_, map_address, y, across.row(y)); }, across);
-      map_pass([&](int y) { blur_row_y<T>(across, blur_, map_address, y, moments.row(y)); }, moments);
+      map_pass([&](int y) { blur_row_x<T>(moments, blur_, map_address, y, across.row(y)); },
+               across);
+      map_pass([&](int y) { blur_row_y<T>(across, blur_, map_address, y, moments.row(y)); },
+               moments);
     }
     chain_.clear();
     chain_.push_back(std::move(moments));
@@ -77,7 +86,8 @@ class native_engine {
   }
   double finished(const light& p) const {
     if (how_.bleeding_reduction == 0) return static_cast<double>(p);
-    return static_cast<double>(reduce_bleeding(p, static_cast<T>(on_split_grid(how_.bleeding_reduction))));
+    return static_cast<double>(
+        reduce_bleeding(p, static_cast<T>(on_split_grid(how_.bleeding_reduction))));
   }
 
   const image<T>& texels() const { return chain_.front(); }

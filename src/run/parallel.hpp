@@ -2,9 +2,11 @@
 #pragma once
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cfenv>
 #include <chrono>
 #include <cstddef>
@@ -27,10 +29,12 @@ class default_float_environment {
   std::fenv_t saved_;
 };
 
-/// Calls work(first, last) for ranges that cover [0, count), on `threads` threads (0: all cores).
+/// Calls work(first, last) for ranges that cover [0, count), on `threads` threads (0: all cores;
+/// never more).
 template <class Work>
 void for_ranges(int threads, std::size_t count, std::size_t grain, Work work) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(threads > 0 ? std::min(threads, cores) : cores);
   arena.execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
       const default_float_environment environment;

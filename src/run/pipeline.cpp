@@ -2,6 +2,7 @@
 
 #include "io/error.hpp"
 #include "run/engines.hpp"
+#include "run/parallel.hpp"
 
 namespace bitshade {
 
@@ -9,7 +10,8 @@ namespace {
 
 /// Bytes of one texel over all layers and channels, in the format's own packing.
 int bytes_of(const configuration& how, const plan& effects, int bits) {
-  const auto layers = how.method == technique::lvsm ? static_cast<int>(effects.splits.size()) - 1 : 1;
+  const auto layers =
+      how.method == technique::lvsm ? static_cast<int>(effects.splits.size()) - 1 : 1;
   return (bits * how.channels() * layers + 7) / 8;
 }
 
@@ -18,10 +20,13 @@ using run_function = void (*)(run_context&);
 run_function function_of(const configuration& how) {
   switch (how.method) {
     case technique::hard:
-    case technique::pcf: return how.exact() ? run_depth_exact : run_depth_native;
+    case technique::pcf:
+      return how.exact() ? run_depth_exact : run_depth_native;
     case technique::vsm:
-    case technique::lvsm: return how.exact() ? run_variance_exact : run_variance_native;
-    default: break;
+    case technique::lvsm:
+      return how.exact() ? run_variance_exact : run_variance_native;
+    default:
+      break;
   }
   throw usage_error("technique " + std::string(name_of(how.method)) +
                     " is not part of this build: use one of hard, pcf, vsm, lvsm");
@@ -30,6 +35,7 @@ run_function function_of(const configuration& how) {
 }  // namespace
 
 cell run_pipeline(const frame& scene, const configuration& how, const plan& effects, int threads) {
+  const default_float_environment environment;
   const auto run = function_of(how);
   cell result;
   storage_format storage;
@@ -43,7 +49,8 @@ cell run_pipeline(const frame& scene, const configuration& how, const plan& effe
   result.layer = layers.own;
   result.effects = effects.effects;
   for (const int own : layers.own) result.samples += own >= 0 ? 1 : 0;
-  run_context context{scene, how, effects, layers, storage, lookup_of(how, effects), threads, result};
+  run_context context{scene,   how,   effects, layers, storage, lookup_of(how, effects),
+                      threads, result};
   run(context);
   return result;
 }

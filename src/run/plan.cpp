@@ -7,6 +7,7 @@
 #include "bitshade/texture/gaussian.hpp"
 #include "io/error.hpp"
 #include "run/lookup.hpp"
+#include "run/parallel.hpp"
 #include "run/pipeline.hpp"
 #include "run/splits.hpp"
 #include "run/storage.hpp"
@@ -30,10 +31,10 @@ bool layered(const configuration& how) { return how.method == technique::lvsm &&
 
 struct receivers_seen {
   std::size_t all = 0;
-  std::size_t in_overlap = 0;   ///< closer than delta to a split
-  std::size_t by_level = 0;     ///< read a level above 0
-  std::size_t by_probes = 0;    ///< read several probes
-  std::size_t widened = 0;      ///< look up a layer that an overlap widens
+  std::size_t in_overlap = 0;  ///< closer than delta to a split
+  std::size_t by_level = 0;    ///< read a level above 0
+  std::size_t by_probes = 0;   ///< read several probes
+  std::size_t widened = 0;     ///< look up a layer that an overlap widens
 };
 
 receivers_seen look_at(const frame& scene, const configuration& how, const plan& p) {
@@ -50,8 +51,7 @@ receivers_seen look_at(const frame& scene, const configuration& how, const plan&
       seen.widened += plain[own] != wide[own] ? 1 : 0;
     }
     if (trilinear || how.max_anisotropy > 1) {
-      const auto probes =
-          probes_of(r, scene.depth.width, scene.depth.height, how.max_anisotropy);
+      const auto probes = probes_of(r, scene.depth.width, scene.depth.height, how.max_anisotropy);
       seen.by_level += probes.lambda > 0 ? 1 : 0;
       seen.by_probes += probes.offsets.size() > 1 ? 1 : 0;
     }
@@ -142,7 +142,9 @@ effect subnormals_effect(const frame& scene, const configuration& how, const pla
   }
   e.asked = true;
   const int exponent = min_exponent(*storage.code);
-  const double normal = exponent < -1000 ? 0x1p-1000 : std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+  const double normal =
+      exponent < -1000 ? 0x1p-1000
+                       : std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
   const auto smallest = smallest_of(scene, how, p, normal);
   e.needed = smallest.value < normal;
   if (smallest.texels > 0) {
@@ -169,6 +171,7 @@ effect empty_layers_effect(const plan& p) {
 }  // namespace
 
 plan make_plan(const frame& scene, const configuration& how, int threads) {
+  const default_float_environment environment;
   try {
     how.validate();
   } catch (const std::invalid_argument& e) {

@@ -29,7 +29,8 @@ std::vector<lloyd_sample> samples_of(const image<float>& depth, int threads) {
       const int right = std::min(x + 1, depth.width - 1);
       const auto mean = [&](int c) {
         return (static_cast<double>(moments.at(x, y, c)) + moments.at(right, y, c) +
-                moments.at(x, below, c) + moments.at(right, below, c)) / 4;
+                moments.at(x, below, c) + moments.at(right, below, c)) /
+               4;
       };
       samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
               static_cast<std::size_t>(x)] = lloyd_sample_of(mean(0), mean(1));

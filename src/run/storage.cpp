@@ -15,9 +15,8 @@ storage_format storage_named(const std::string& format) {
   storage_format result;
   result.bits = code->width;
   // The rule of default_arithmetic: binary32 as far as it holds the format's range and precision.
-  result.wide = code->kind == family::binary
-                    ? (code->fraction_bits > 23 || code->exponent_bits > 8)
-                    : code->width > 32;
+  result.wide = code->kind == family::binary ? (code->fraction_bits > 23 || code->exponent_bits > 8)
+                                             : code->width > 32;
   const bool native = *code == (result.wide ? binary64::value : binary32::value);
   if (!native) result.code = *code;
   return result;

@@ -74,7 +74,8 @@ weighted_texels general_footprint_of(const lookup& look, const receiver& r,
     }
     for (int j = 0; j < 2; ++j) {
       for (int i = 0; i < 2; ++i) {
-        const auto part = static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
+        const auto part =
+            static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
         if (part == 0) continue;
         blocks.push_back({wrap(static_cast<int>((x >> 24) + i), w, map_address),
                           wrap(static_cast<int>((y >> 24) + j), h, map_address), level,
@@ -93,7 +94,9 @@ weighted_texels general_footprint_of(const lookup& look, const receiver& r,
 
   // Level-0 texels under the blocks, then the blur around each: a dense window of weights.
   const int radius = static_cast<int>(blur.size() / 2);
-  const auto side = [](int level, int size) { return std::min(1 << level, static_cast<int>(std::bit_floor(static_cast<unsigned>(size)))); };
+  const auto side = [](int level, int size) {
+    return std::min(1 << level, static_cast<int>(std::bit_floor(static_cast<unsigned>(size))));
+  };
   int x0 = width, y0 = height, x1 = 0, y1 = 0;
   for (const block& b : blocks) {
     const int w = side(b.level, width), h = side(b.level, height);
@@ -147,11 +150,12 @@ weighted_texels general_footprint_of(const lookup& look, const receiver& r,
 template <class MakeLit>
 std::vector<double> share_of(const frame& scene, const configuration& how, int threads,
                              MakeLit make_lit) {
+  const default_float_environment environment;
   std::vector<std::uint64_t> blur;
   for (const double w : blur_of(how).weights) blur.push_back(on_grid(w, 24));
-  const lookup look{how.filter == texel_filter::nearest ? texel_filter::nearest
-                                                        : texel_filter::bilinear,
-                    how.filter == texel_filter::trilinear, how.max_anisotropy};
+  const lookup look{
+      how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
+      how.filter == texel_filter::trilinear, how.max_anisotropy};
   const int width = scene.depth.width, height = scene.depth.height;
   std::vector<double> shares(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
   for_ranges(threads, shares.size(), 512, [&](std::size_t first, std::size_t last) {
@@ -162,8 +166,7 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
       if (look.plain()) {
         const auto at = plain_footprint_of(look, r, blur, width, height);
         const auto share = lit_share<uint128>(
-            at.columns, at.rows,
-            [&](int x, int y, std::size_t, std::size_t) { return lit(x, y); });
+            at.columns, at.rows, [&](int x, int y, std::size_t, std::size_t) { return lit(x, y); });
         shares[i] = quotient_to_double(wide<2>(share), wide<2>(uint128{1} << 96));
       } else {
         const auto at = general_footprint_of(look, r, blur, width, height);
@@ -201,8 +204,8 @@ std::vector<double> truth_geometric(const frame& scene, const configuration& how
     const double at_origin = static_cast<double>(r.t) - tolerance - du * r.u - dv * r.v;
     return [&scene, &r, du, dv, at_origin](int x, int y) {
       if (!scene.surface.texels.empty() && scene.surface.at(x, y) == r.surface) return true;
-      const double plane = at_origin + du * ((x + 0.5) / scene.depth.width) +
-                           dv * ((y + 0.5) / scene.depth.height);
+      const double plane =
+          at_origin + du * ((x + 0.5) / scene.depth.width) + dv * ((y + 0.5) / scene.depth.height);
       return static_cast<double>(scene.depth.at(x, y)) >= plane;
     };
   });

@@ -9,8 +9,8 @@ namespace {
 template <class T>
 void run_in(run_context& run) {
   native_engine<T> engine(run.scene, run.how, run.storage, run.look, run.threads, run.result);
-  run_layers(engine, run.scene, run.how, run.layers, run.effects.simulates("layers without receivers"),
-             run.result);
+  run_layers(engine, run.scene, run.how, run.layers,
+             run.effects.simulates("layers without receivers"), run.result);
 }
 
 }  // namespace

@@ -21,16 +21,13 @@ struct wide {
 
   constexpr wide() = default;
   constexpr wide(std::uint64_t value) { limb[0] = value; }
-  constexpr wide(uint128 value)
-    requires(Limbs >= 2)
-  {
+  constexpr wide(uint128 value) requires(Limbs >= 2) {
     limb[0] = static_cast<std::uint64_t>(value);
     limb[1] = static_cast<std::uint64_t>(value >> 64);
   }
   /// Widening: no bit is lost.
   template <std::size_t Fewer>
-    requires(Fewer < Limbs)
-  constexpr wide(const wide<Fewer>& other) {
+  requires(Fewer < Limbs) constexpr wide(const wide<Fewer>& other) {
     for (std::size_t i = 0; i < Fewer; ++i) limb[i] = other.limb[i];
   }
 
@@ -132,8 +129,8 @@ constexpr Word leading_bits(const wide<Limbs>& a) {
   for (std::size_t i = 0; i < Limbs; ++i) {
     const int place = static_cast<int>(64 * i) - drop;  // of this limb's lowest bit
     if (place >= Width || place <= -64) continue;
-    bits |= place >= 0 ? static_cast<Word>(a.limb[i]) << place
-                       : static_cast<Word>(a.limb[i] >> -place);
+    bits |=
+        place >= 0 ? static_cast<Word>(a.limb[i]) << place : static_cast<Word>(a.limb[i] >> -place);
   }
   return bits;
 }

@@ -53,8 +53,8 @@ T reduce_bleeding(const T& p, const T& alpha) {
   const T zero = static_cast<T>(0), one = static_cast<T>(1);
   const T rest = one - alpha;
   const auto none_left = rest <= zero;
-  const T reduced = select(none_left, select(p < one, zero, one),
-                           (p - alpha) / select(none_left, one, rest));
+  const T reduced =
+      select(none_left, select(p < one, zero, one), (p - alpha) / select(none_left, one, rest));
   return select(reduced < zero, zero, reduced);
 }
 

@@ -22,7 +22,7 @@ struct lloyd_sample {
 /// Limits of a sample's weight: below `low` it is noise and weighs nothing, above `high` it weighs
 /// no more than `high`, so that the farthest pairs of occluders do not decide alone.
 struct weight_limits {
-  double low = 4e-5;   ///< a little more than unorm16's own noise of 2.3e-5
+  double low = 4e-5;  ///< a little more than unorm16's own noise of 2.3e-5
   double high = 0.01;
 };
 
@@ -104,10 +104,9 @@ class lloyd_samples {
   /// How many distinct values lie below x.
   std::size_t below(double x) const {
     // A midpoint of two grid values may lie between grid values: compare at half steps.
-    const auto at = std::lower_bound(values_.begin(), values_.end(), x * 0x1p24,
-                                     [](std::uint64_t value, double limit) {
-                                       return static_cast<double>(value) < limit;
-                                     });
+    const auto at = std::lower_bound(
+        values_.begin(), values_.end(), x * 0x1p24,
+        [](std::uint64_t value, double limit) { return static_cast<double>(value) < limit; });
     return static_cast<std::size_t>(at - values_.begin());
   }
 
@@ -117,9 +116,9 @@ class lloyd_samples {
 
 /// The choices that the source leaves open, or makes and one may want to undo.
 struct lloyd_options {
-  int splits_per_frame = 0;      ///< 0: all; the source moves two a frame
+  int splits_per_frame = 0;  ///< 0: all; the source moves two a frame
   bool teleport = true;
-  double hysteresis = 0.01;      ///< a teleportation must lower the cost by this share of it
+  double hysteresis = 0.01;  ///< a teleportation must lower the cost by this share of it
 };
 
 /// The splits while they relax. Equal inputs give equal splits.
@@ -148,10 +147,10 @@ class lloyd_relaxation {
   /// weigh nothing may teleport. Returns the largest move.
   double step(const lloyd_samples& samples) {
     if (splits_.empty() || samples.empty()) return 0;
-    const std::size_t count = options_.splits_per_frame == 0
-                                  ? splits_.size()
-                                  : std::min(splits_.size(),
-                                             static_cast<std::size_t>(options_.splits_per_frame));
+    const std::size_t count =
+        options_.splits_per_frame == 0
+            ? splits_.size()
+            : std::min(splits_.size(), static_cast<std::size_t>(options_.splits_per_frame));
     std::vector<double> moved = splits_;
     bool idle = false;
     for (std::size_t n = 0; n < count; ++n) {

@@ -60,7 +60,7 @@ struct measures {
   error_figures format;      ///< technique in the format against itself in exact arithmetic
   error_figures total;       ///< technique in the format against the geometric truth
   std::size_t receivers = 0;
-  double bleed_area = 0;         ///< truth < 1/255 and p > eps
+  double bleed_area = 0;         ///< truth < 1/255 and p > truth + eps
   double bleed_integral = 0;     ///< mean of p over that area, times the area
   double acne_area = 0;          ///< truth = 1 and p < 1 - eps
   std::size_t violations = 0;    ///< p below the pcf truth: the upper bound does not hold
@@ -101,7 +101,7 @@ inline measures measure(const frame& scene, const pictures& p, double eps = tole
     const double seen = p.visibility[i];
     if (seen != seen) continue;
     ++m.receivers;
-    if (p.geometric[i] < 1.0 / 255 && seen > eps) {
+    if (p.geometric[i] < 1.0 / 255 && seen > p.geometric[i] + eps) {
       ++bleeding;
       light += seen;
     }

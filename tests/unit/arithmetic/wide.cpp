@@ -28,7 +28,8 @@ wide<N> random_wide(std::mt19937_64& random) {
   }
   // Runs of equal bits find carries that random bits never make.
   if (random() % 4 == 0) {
-    for (auto& limb : a.limb) limb = limb != 0 && random() % 2 ? ~std::uint64_t{0} >> (random() % 64) : limb;
+    for (auto& limb : a.limb)
+      limb = limb != 0 && random() % 2 ? ~std::uint64_t{0} >> (random() % 64) : limb;
   }
   return a;
 }
