@@ -10,8 +10,8 @@ inline constexpr std::uint64_t gamma = 0x9e3779b97f4a7c15u;
 
 /// What a kernel leaves out.
 enum class shape : std::uint8_t {
-  plain,       ///< IEEE format, NaNs kept, nothing flushed, one magnitude for every overflow
-  plain_no_inf,///< the same without infinities: NaN and overflow are one case
+  plain,         ///< signed IEEE format, NaNs kept, nothing flushed; overflow: one magnitude (narrow), infinity (others)
+  plain_no_inf,  ///< the same without infinities: NaN and overflow are one case
   full
 };
 
@@ -35,15 +35,15 @@ struct binary_step {
   static constexpr word ones = ~word{0};
   static constexpr word unit_word = word{1} << fraction;  // one step of the exponent; the smallest normal number
   static constexpr word infinity_word = ((word{1} << V::exponent_bits) - 1) << fraction;
-  // A subnormal carrier read as an integer is 2^(lane_bias - 1 + fraction) times as large.
-  static constexpr word normalising = static_cast<word>(lane_bias - 1 + fraction) << fraction;
+  static constexpr bool plain_nearest = Shape == shape::plain && D == rounding::nearest_even && Reach == reach::equal;
 
   const i sign = V::all_bits(word{1} << (lane_bits - 1));
   const i magnitude = V::all_bits(ones >> 1);
   const i infinity = V::all_bits(infinity_word);
+  const i quiet = V::all_bits(infinity_word | unit_word >> 1);
   i lowest, highest, up, half, one, odd, shift, kept, low, left;
   i overflow_positive, overflow_negative, infinite, largest, smallest, nan, nan_payload, nan_shift, nan_sign;
-  i sign_shift, sign_code, rebias, random_mask;
+  i sign_shift, sign_code, rebias, tiny_rebias, random_mask;
   f limit;
   bool has_sign, more_random;
 
@@ -78,8 +78,8 @@ struct binary_step {
     nan_sign = all(p.canonical_nan ? 0 : ones);
     sign_shift = all(static_cast<word>(lane_bits - p.width));
     sign_code = all(p.sign);
-    rebias = all(static_cast<word>(p.bias - lane_bias - (Reach == reach::wider ? lane_bias - 1 + fraction : 0))
-                 << p.fraction_bits);
+    rebias = all(static_cast<word>(p.bias - lane_bias) << p.fraction_bits);
+    tiny_rebias = all(static_cast<word>(lane_bias - 1 + fraction) << p.fraction_bits);
     random_mask = all(p.random_bits >= lane_bits ? ones : static_cast<word>(~(ones >> p.random_bits)));
     limit = V::value(all(n.limit));
     has_sign = p.has_sign;
@@ -88,7 +88,8 @@ struct binary_step {
 
   struct rounded {
     i sum;       ///< narrow: |x| plus the power, as bits; else the carrier's bits, the unit's bit the last that counts
-    i power;     ///< narrow: the power of two; wider: ones where the carrier is subnormal
+    i power;     ///< narrow: the power of two
+    m tiny;      ///< wider: where the carrier is subnormal
     i exponent;  ///< narrow: the clamped exponent, in place
     bool undecided = false;  ///< stochastic: the bits at hand are not enough; the scalar definition decides
   };
@@ -117,11 +118,11 @@ struct binary_step {
               random);
       }
     } else {
-      i u = a;
+      // To nearest nothing carries into the sign but a NaN, which is replaced later.
+      i u = plain_nearest ? x : a;
       if constexpr (Reach == reach::wider) {
-        const m tiny = V::igt(V::all_bits(unit_word), a);
-        r.power = V::keep(tiny, V::all_bits(ones));
-        u = V::select(tiny, V::bits(V::to_float(a)), V::iadd(a, V::all_bits(normalising)));
+        r.tiny = V::igt(V::all_bits(unit_word), a);
+        u = V::select(r.tiny, V::bits(V::to_float(a)), a);
       }
       r.sum = u;
       if constexpr (D == rounding::nearest_even) {
@@ -139,30 +140,27 @@ struct binary_step {
 
   /// The bits of the rounded number in the carrier.
   [[gnu::always_inline]] i to_value(const rounded& r, i x) const {
+    const i a = V::and_(x, magnitude);
     i v;
     if constexpr (Reach == reach::narrow) {
       v = V::bits(V::sub(V::value(r.sum), V::value(r.power)));
+      if constexpr (Shape != shape::full) {
+        const m over = Shape == shape::plain ? V::gt(V::value(a), limit) : V::nle(V::value(a), limit);
+        v = V::select(over, overflow_positive, v);
+        return V::merge(sign, x, V::and_(v, kept));  // numbers have no bits there; a NaN's payload is cut
+      }
+    } else if constexpr (Shape == shape::plain) {
+      // Overflow has carried into the exponent of infinity already.
+      v = V::select(V::nan(V::value(x)), V::or_(x, quiet), r.sum);
+      v = V::and_(v, kept);
+      if constexpr (plain_nearest) return v;
+      if constexpr (Reach == reach::wider) v = V::select(r.tiny, V::to_int(V::value(v)), v);
+      return V::merge(sign, x, v);
     } else {
       v = V::and_(r.sum, kept);
-      if constexpr (Reach == reach::wider) {
-        v = V::merge(r.power, V::to_int(V::value(v)), V::isub(v, V::all_bits(normalising)));
-      }
+      if constexpr (Reach == reach::wider) v = V::select(r.tiny, V::to_int(V::value(v)), v);
     }
-    const i a = V::and_(x, magnitude);
-    if constexpr (Shape == shape::full) return finish(v, a, x, V::and_(x, sign));
-    if constexpr (Reach != reach::wider) {
-      if constexpr (Shape == shape::plain_no_inf) {
-        v = V::select(V::nle(V::value(a), limit), overflow_positive, v);
-      } else {
-        v = V::select(V::gt(V::value(a), limit), overflow_positive, v);
-      }
-    }
-    if constexpr (Reach == reach::narrow) {
-      v = V::and_(v, kept);  // numbers have no bits there; a NaN's payload is cut
-    } else if constexpr (Shape == shape::plain) {
-      v = V::select(V::igt(a, infinity), V::or_(V::and_(a, nan_payload), nan), v);
-    }
-    return V::merge(sign, x, v);
+    return finish(v, a, x, V::and_(x, sign));
   }
 
   /// The code.
@@ -173,7 +171,11 @@ struct binary_step {
       c = V::iadd(V::isub(r.sum, r.power), V::shr(V::isub(r.exponent, lowest), shift));
     } else {
       c = V::iadd(V::shr(r.sum, shift), rebias);
-      if constexpr (Reach == reach::wider) c = V::keep(V::inot(V::ieq(a, V::all_bits(0))), c);
+      if constexpr (Reach == reach::wider) {
+        // A subnormal carrier, read as an integer, was 2^(lane_bias - 1 + fraction) times as large.
+        c = V::select(r.tiny, V::isub(c, tiny_rebias), c);
+        c = V::keep(V::inot(V::ieq(a, V::all_bits(0))), c);
+      }
     }
     return finish(c, a, x, V::and_(V::shr(x, sign_shift), sign_code));
   }

@@ -18,6 +18,7 @@ using bulk_kernels::chosen;
 using bulk_kernels::operation;
 using bulk_kernels::plan;
 using bulk_kernels::request;
+using bulk_kernels::setting;
 
 template <class T>
 constexpr char letter_of() {
@@ -58,15 +59,27 @@ chosen choose(const plan& p, request r, instruction_set set) {
   return {};
 }
 
+chosen choose_native(const encoding& e, const rules& k, request r, instruction_set set) {
+#if defined(BITSHADE_X86_64)
+  if (set == instruction_set::avx512) return bulk_kernels::avx512::choose_native(e, k, r);
+  if (set == instruction_set::avx2) return bulk_kernels::avx2::choose_native(e, k, r);
+#else
+  (void)e, (void)k, (void)r, (void)set;
+#endif
+  return {};
+}
+
+void run_chosen(const chosen& c, const plan& p, const void* in, void* out, std::size_t n) {
+  if (c.wants == setting::any) return c.run(p, in, out, n);
+  const float_environment environment(c.wants == setting::toward_zero ? float_environment::direction::toward_zero
+                                                                      : float_environment::direction::nearest);
+  c.run(p, in, out, n);
+}
+
 /// One chunk on one thread.
 template <operation What, class In, class Out>
-void run(const plan& p, const In* in, Out* out, std::size_t n, instruction_set set) {
-  using direction = float_environment::direction;
-  const chosen direct = choose(p, {What, letter_of<In>(), letter_of<Out>()}, set);
-  if (direct.run) {
-    const float_environment environment(direct.toward_zero ? direction::toward_zero : direction::nearest);
-    return direct.run(p, in, out, n);
-  }
+void run(const plan& p, const chosen& direct, const In* in, Out* out, std::size_t n, instruction_set set) {
+  if (direct.run) return run_chosen(direct, p, in, out, n);
   if constexpr (What == operation::round) {
     // Encode and decode, a block at a time, where both have kernels.
     constexpr std::size_t block = 512;
@@ -77,18 +90,14 @@ void run(const plan& p, const In* in, Out* out, std::size_t n, instruction_set s
       plan part = p;
       for (std::size_t j = 0; j < n; j += block) {
         const std::size_t m = std::min(block, n - j);
-        {
-          const float_environment environment(encoder.toward_zero ? direction::toward_zero : direction::nearest);
-          encoder.run(part, in + j, codes, m);
-        }
-        const float_environment environment(direction::nearest);
-        decoder.run(part, codes, out + j, m);
+        run_chosen(encoder, part, in + j, codes, m);
+        run_chosen(decoder, part, codes, out + j, m);
         advance(part, m);
       }
       return;
     }
   }
-  const float_environment environment(direction::nearest);
+  const float_environment environment(float_environment::direction::nearest);
   define<What, In, Out>(p, in, out, n, 0);
 }
 
@@ -112,24 +121,26 @@ void work(const encoding& e, const rules& r, std::span<const In> in, std::span<O
                                                                            : instruction_set::scalar;
     set = widest;
   }
+  constexpr request wanted{What, letter_of<In>(), letter_of<Out>()};
   plan p;
-  {
-    const float_environment environment(float_environment::direction::nearest);
-    p = make_plan(e, r, how.seed, how.first_counter);
+  chosen direct = choose_native(e, r, wanted, set);
+  if (!direct.run) {
+    make_plan(p, e, r, how.seed, how.first_counter);
+    p.define = define<What, In, Out>;
+    direct = choose(p, wanted, set);
   }
-  p.define = define<What, In, Out>;
   // Whole cache lines of the narrowest type for each thread, and enough work to be worth its start.
   constexpr std::size_t grain = std::size_t{1} << 14;
   const std::size_t workers = std::min<std::size_t>(std::max(1u, how.threads), (in.size() + grain - 1) / grain);
-  if (workers <= 1) return run<What>(p, in.data(), out.data(), in.size(), set);
+  if (workers <= 1) return run<What>(p, direct, in.data(), out.data(), in.size(), set);
   const std::size_t share = (in.size() / workers + 63) / 64 * 64;
   std::vector<std::jthread> threads;
   threads.reserve(workers);
   for (std::size_t begin = 0; begin < in.size(); begin += share) {
     plan part = p;
-    advance(part, begin);
+    if (r.direction == rounding::stochastic) advance(part, begin);
     const std::size_t n = std::min(share, in.size() - begin);
-    threads.emplace_back([=] { run<What>(part, in.data() + begin, out.data() + begin, n, set); });
+    threads.emplace_back([=] { run<What>(part, direct, in.data() + begin, out.data() + begin, n, set); });
   }
 }
 

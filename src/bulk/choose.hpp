@@ -10,6 +10,10 @@ struct direction_constant {
   static constexpr rounding value = D;
 };
 
+static constexpr setting setting_of(rounding d) {
+  return d == rounding::nearest_even ? setting::nearest : setting::toward_zero;
+}
+
 /// Calls f with the direction as a constant.
 template <bool HasRandom, class F>
 chosen with_direction(rounding d, F f) {
@@ -41,18 +45,19 @@ chosen with_code(char letter, F f) {
 
 template <class V, reach Reach, class Io>
 chosen choose_round_binary(const plan& p) {
+  const lane_numbers& n = sizeof(typename V::word) == 4 ? p.single : p.wide;
   if (p.plain && p.direction == rounding::nearest_even) {
     if (p.special == specials::single_nan) {
       if constexpr (Reach == reach::narrow) {
-        return {round_binary<V, Reach, rounding::nearest_even, shape::plain_no_inf, Io>, false};
+        return {round_binary<V, Reach, rounding::nearest_even, shape::plain_no_inf, Io>, setting::nearest};
       }
-    } else {
-      return {round_binary<V, Reach, rounding::nearest_even, shape::plain, Io>, false};
+    } else if (Reach == reach::narrow || n.natural_overflow) {
+      return {round_binary<V, Reach, rounding::nearest_even, shape::plain, Io>, setting::nearest};
     }
   }
   return with_direction<V::has_random>(p.direction, [](auto d) -> chosen {
     constexpr rounding D = decltype(d)::value;
-    return {round_binary<V, Reach, D, shape::full, Io>, D != rounding::nearest_even};
+    return {round_binary<V, Reach, D, shape::full, Io>, setting_of(D)};
   });
 }
 
@@ -61,41 +66,34 @@ chosen choose_encode_binary(const plan& p, char code) {
   return with_code<sizeof(typename V::word) == 8>(code, [&](auto c) {
     return with_direction<V::has_random>(p.direction, [](auto d) -> chosen {
       constexpr rounding D = decltype(d)::value;
-      return {encode_binary<V, Reach, D, In, decltype(c)>, D != rounding::nearest_even};
+      return {encode_binary<V, Reach, D, In, decltype(c)>, setting_of(D)};
     });
   });
 }
 
-/// binary16 as the instructions have it: NaNs kept, nothing flushed, overflow as the direction says.
+/// binary16 as the instructions have it: NaNs kept, nothing flushed, overflow as the direction says. Needs no plan,
+/// so that short spans cost little; to nearest even the processor's settings do not matter either.
 template <class V>
-chosen choose_half(const plan& p, request r) {
-  if (p.exponent_bits != 5 || p.fraction_bits != 10 || !p.has_sign || p.special != specials::ieee || p.canonical_nan) {
+chosen choose_half(const encoding& e, const rules& k, request r) {
+  if (e.kind != family::binary || e.exponent_bits != 5 || e.fraction_bits != 10 || !e.has_sign ||
+      e.special != specials::ieee) {
     return {};
   }
   if (r.what == operation::decode) {
-    return p.flush_loads || r.in != 'h' || r.out != 'f' ? chosen{} : chosen{decode_half<V>, false};
+    const bool flushes = k.subnormal == subnormals::flush_input || k.subnormal == subnormals::flush_both;
+    return flushes || r.in != 'h' || r.out != 'f' ? chosen{} : chosen{decode_half<V>, setting::any};
   }
   const bool to_codes = r.what == operation::encode;
   if (r.in != 'f' || r.out != (to_codes ? 'h' : 'f')) return {};
-  if (to_codes ? p.flush_codes : p.flush_values) return {};
-  if (p.infinite_code != p.max_code + 1) return {};
-  const bool up = p.overflow_code[0] != p.max_code, down = p.overflow_code[1] != p.max_code;
-  switch (p.direction) {  // the instruction's immediate operand: 0 to 3
-    case rounding::nearest_even:
-      if (up && down) return {to_codes ? encode_half<V, 0> : round_half<V, 0>, false};
-      break;
-    case rounding::down:
-      if (!up && down) return {to_codes ? encode_half<V, 1> : round_half<V, 1>, false};
-      break;
-    case rounding::up:
-      if (up && !down) return {to_codes ? encode_half<V, 2> : round_half<V, 2>, false};
-      break;
-    case rounding::toward_zero:
-      if (!up && !down) return {to_codes ? encode_half<V, 3> : round_half<V, 3>, false};
-      break;
-    default: break;
+  if (k.nan != nan_payload::keep || k.subnormal != subnormals::preserve || k.overflow == overflow::saturate) return {};
+  if (k.direction == rounding::nearest_even) return {to_codes ? encode_half<V, 0> : round_half<V, 0>, setting::any};
+  if (k.overflow != overflow::ieee) return {};
+  switch (k.direction) {  // the instruction's immediate operand: 0 to 3
+    case rounding::down: return {to_codes ? encode_half<V, 1> : round_half<V, 1>, setting::nearest};
+    case rounding::up: return {to_codes ? encode_half<V, 2> : round_half<V, 2>, setting::nearest};
+    case rounding::toward_zero: return {to_codes ? encode_half<V, 3> : round_half<V, 3>, setting::nearest};
+    default: return {};
   }
-  return {};
 }
 
 /// binary32 lanes: formats that binary32 holds, norms and fixed point below 2^22, float in and out.
@@ -107,26 +105,22 @@ chosen choose_single(const plan& p, request r) {
     if constexpr (V::has_fma) {
       if (p.width > 22) return {};
       if (decoding) {
-        return with_code<false>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, false}; });
+        return with_code<false>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, setting::nearest}; });
       }
       if (p.direction != rounding::nearest_even) return {};
-      if (r.what == operation::round) return {round_norm<V, float>, false};
+      if (r.what == operation::round) return {round_norm<V, float>, setting::nearest};
       return with_code<false>(r.out, [](auto c) -> chosen {
-        return {encode_norm<V, rounding::nearest_even, float, decltype(c)>, false};
+        return {encode_norm<V, rounding::nearest_even, float, decltype(c)>, setting::nearest};
       });
     }
     return {};
-  }
-  if constexpr (V::has_half) {
-    const chosen half = choose_half<V>(p, r);
-    if (half.run) return half;
   }
   if (!p.has_sign && p.width == 32) return {};  // magnitudes are compared as signed integers
   const auto with = [&]<reach Reach>() -> chosen {
     if (r.what == operation::round) return choose_round_binary<V, Reach, float>(p);
     if (r.what == operation::encode) return choose_encode_binary<V, Reach, float>(p, r.out);
     if constexpr (Reach != reach::wider) {
-      return with_code<false>(r.in, [](auto c) -> chosen { return {decode_binary<V, Reach, decltype(c), float>, false}; });
+      return with_code<false>(r.in, [](auto c) -> chosen { return {decode_binary<V, Reach, decltype(c), float>, setting::nearest}; });
     }
     return {};
   };
@@ -146,22 +140,21 @@ chosen choose_double(const plan& p, request r) {
     if (p.width > 50) return {};
     if (decoding) {
       if (r.out == 'd') {
-        return with_code<true>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), double>, false}; });
+        return with_code<true>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), double>, setting::nearest}; });
       }
-      return with_code<true>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, false}; });
+      return with_code<true>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, setting::nearest}; });
     }
     if (r.what == operation::round) {
       if (p.direction != rounding::nearest_even) return {};
-      return r.in == 'd' ? chosen{round_norm<V, double>, false} : chosen{round_norm<V, float>, false};
+      return r.in == 'd' ? chosen{round_norm<V, double>, setting::nearest} : chosen{round_norm<V, float>, setting::nearest};
     }
     // The discarded part must be exact for the random bits to meet it: 24 + 29 bits are.
     if (p.direction == rounding::stochastic && (r.in == 'd' || p.width > 29)) return {};
     return with_code<true>(r.out, [&](auto c) {
       return with_direction<true>(p.direction, [&](auto d) -> chosen {
         constexpr rounding D = decltype(d)::value;
-        constexpr bool toward_zero = D != rounding::nearest_even;
-        if (r.in == 'd') return {encode_norm<V, D, double, decltype(c)>, toward_zero};
-        return {encode_norm<V, D, float, decltype(c)>, toward_zero};
+        if (r.in == 'd') return {encode_norm<V, D, double, decltype(c)>, setting_of(D)};
+        return {encode_norm<V, D, float, decltype(c)>, setting_of(D)};
       });
     });
   }
@@ -180,8 +173,8 @@ chosen choose_double(const plan& p, request r) {
                            : choose_encode_binary<V, Reach, float>(p, r.out);
       case operation::decode:
         return with_code<true>(r.in, [&](auto c) -> chosen {
-          if (r.out == 'd') return {decode_binary<V, Reach, decltype(c), double>, false};
-          return {decode_binary<V, Reach, decltype(c), float>, false};
+          if (r.out == 'd') return {decode_binary<V, Reach, decltype(c), double>, setting::nearest};
+          return {decode_binary<V, Reach, decltype(c), float>, setting::nearest};
         });
     }
     return {};

@@ -9,7 +9,8 @@
 
 namespace bitshade::bulk {
 
-/// To nearest or toward zero, subnormals kept, no traps; the destructor restores what was there, flags included.
+/// To nearest or toward zero, subnormals kept, no traps; the destructor restores what was there. Exception flags
+/// may be left raised, as any arithmetic leaves them.
 class float_environment {
  public:
   enum class direction { nearest, toward_zero };
@@ -17,8 +18,11 @@ class float_environment {
   explicit float_environment(direction d) {
 #if defined(__SSE2__)
     constexpr unsigned all_masked = 0x1f80, toward_zero = 0x6000;
+    const unsigned wanted = all_masked | (d == direction::toward_zero ? toward_zero : 0);
     saved_ = _mm_getcsr();
-    _mm_setcsr(all_masked | (d == direction::toward_zero ? toward_zero : 0));
+    // Writing the register stalls, and most callers have the wanted settings already.
+    changed_ = (saved_ & ~flags) != wanted;
+    if (changed_) _mm_setcsr(wanted);
 #else
     std::feholdexcept(&saved_);
     std::fesetround(d == direction::toward_zero ? FE_TOWARDZERO : FE_TONEAREST);
@@ -26,7 +30,7 @@ class float_environment {
   }
   ~float_environment() {
 #if defined(__SSE2__)
-    _mm_setcsr(saved_);
+    if (changed_) _mm_setcsr(saved_);
 #else
     std::fesetenv(&saved_);
 #endif
@@ -36,7 +40,9 @@ class float_environment {
 
  private:
 #if defined(__SSE2__)
+  static constexpr unsigned flags = 0x3f;
   unsigned saved_;
+  bool changed_;
 #else
   std::fenv_t saved_;
 #endif

@@ -9,4 +9,6 @@ chosen choose(const plan& p, request r) {
   return narrow.run ? narrow : choose_double<lanes64>(p, r);
 }
 
+chosen choose_native(const encoding& e, const rules& k, request r) { return choose_half<lanes32>(e, k, r); }
+
 }  // namespace bitshade::bulk_kernels::avx512

@@ -79,6 +79,7 @@ struct lanes32 {
   static m eq(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
   static m ne(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_NEQ_UQ)); }
   static m nle(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_NLE_UQ)); }
+  static m nan(f a) { return bits(_mm256_cmp_ps(a, a, _CMP_UNORD_Q)); }
   static m igt(i a, i b) { return _mm256_cmpgt_epi32(a, b); }
   static m ugt(i a, i b) {
     const i top = all_bits(0x80000000u);
@@ -175,6 +176,7 @@ struct lanes64 {
   static m eq(f a, f b) { return bits(_mm256_cmp_pd(a, b, _CMP_EQ_OQ)); }
   static m ne(f a, f b) { return bits(_mm256_cmp_pd(a, b, _CMP_NEQ_UQ)); }
   static m nle(f a, f b) { return bits(_mm256_cmp_pd(a, b, _CMP_NLE_UQ)); }
+  static m nan(f a) { return bits(_mm256_cmp_pd(a, a, _CMP_UNORD_Q)); }
   static m igt(i a, i b) { return _mm256_cmpgt_epi64(a, b); }
   static m ugt(i a, i b) {
     const i top = all_bits(word{1} << 63);

@@ -61,6 +61,7 @@ struct lanes32 {
   static m ne(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NEQ_UQ); }
   /// Not a <= b: greater, or NaN.
   static m nle(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NLE_UQ); }
+  static m nan(f a) { return _mm512_cmp_ps_mask(a, a, _CMP_UNORD_Q); }
   static m igt(i a, i b) { return _mm512_cmpgt_epi32_mask(a, b); }
   static m ugt(i a, i b) { return _mm512_cmpgt_epu32_mask(a, b); }
   static m ieq(i a, i b) { return _mm512_cmpeq_epi32_mask(a, b); }
@@ -165,6 +166,7 @@ struct lanes64 {
   static m eq(f a, f b) { return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ); }
   static m ne(f a, f b) { return _mm512_cmp_pd_mask(a, b, _CMP_NEQ_UQ); }
   static m nle(f a, f b) { return _mm512_cmp_pd_mask(a, b, _CMP_NLE_UQ); }
+  static m nan(f a) { return _mm512_cmp_pd_mask(a, a, _CMP_UNORD_Q); }
   static m igt(i a, i b) { return _mm512_cmpgt_epi64_mask(a, b); }
   static m ugt(i a, i b) { return _mm512_cmpgt_epu64_mask(a, b); }
   static m ieq(i a, i b) { return _mm512_cmpeq_epi64_mask(a, b); }

@@ -55,6 +55,7 @@ struct lanes32 {
   static m eq(f a, f b) { return bits(_mm_cmpeq_ps(a, b)); }
   static m ne(f a, f b) { return bits(_mm_cmpneq_ps(a, b)); }
   static m nle(f a, f b) { return bits(_mm_cmpnle_ps(a, b)); }
+  static m nan(f a) { return bits(_mm_cmpunord_ps(a, a)); }
   static m igt(i a, i b) { return _mm_cmpgt_epi32(a, b); }
   static m ieq(i a, i b) { return _mm_cmpeq_epi32(a, b); }
   static m inot(m a) { return xor_(a, all_bits(~word{0})); }

@@ -1,39 +1,46 @@
 #include "bulk/make_plan.hpp"
 
-#include <bit>
-
 #include "bitshade/formats/random.hpp"
-#include "bitshade/formats/round_to.hpp"
+#include "bitshade/formats/encode.hpp"
+#include "bulk/float_environment.hpp"
 
 namespace bitshade::bulk {
 namespace {
 
 constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;
 
-/// The magnitude that a code stands for, as the lanes' bits; the code's sign does not matter.
-std::uint64_t lane_bits(const encoding& e, std::uint64_t code, bool single) {
-  const double x = decode(e, code);
-  if (single) return std::bit_cast<std::uint32_t>(static_cast<float>(x)) & 0x7fffffffu;
-  return std::bit_cast<std::uint64_t>(x) & low_bits(63);
-}
-
-bulk_kernels::lane_numbers numbers(const encoding& e, const bulk_kernels::plan& p, bool single) {
+/// The numbers of an encoding, seen from lanes with F fraction bits and the given exponent bits. They are made with a
+/// few integer operations, so that short spans are worth a call; tests hold the kernels against decode.
+bulk_kernels::lane_numbers numbers(const encoding& e, const bulk_kernels::plan& p, int fraction, int exponent_bits) {
   bulk_kernels::lane_numbers n{};
-  for (int s = 0; s < 2; ++s) n.overflow[s] = lane_bits(e, p.overflow_code[s], single);
-  n.infinite = lane_bits(e, p.infinite_code, single);
-  n.largest = lane_bits(e, p.max_code, single);
-  n.min_normal = lane_bits(e, p.min_normal_code, single);
+  const int unit = fraction - e.fraction_bits;
+  if (unit < 0) return n;  // no kernel of these lanes can take it
+  const std::uint64_t infinity = low_bits(exponent_bits) << fraction;
+  const std::uint64_t quiet = infinity | std::uint64_t{1} << (fraction - 1);
+  const int lane_bias = (1 << (exponent_bits - 1)) - 1;
+  const auto bits_of = [&](std::uint64_t code) {
+    if (code > p.max_code) return code == p.nan_code ? quiet : infinity;
+    const std::int64_t field = static_cast<std::int64_t>(code >> e.fraction_bits) + lane_bias - p.bias;
+    if (field <= 0) return std::uint64_t{0};
+    const std::uint64_t bits = (static_cast<std::uint64_t>(field) << fraction) |
+                               (code & low_bits(e.fraction_bits)) << unit;
+    return bits < infinity ? bits : infinity;
+  };
+  for (int s = 0; s < 2; ++s) n.overflow[s] = bits_of(p.overflow_code[s]);
+  n.infinite = bits_of(p.infinite_code);
+  n.largest = bits_of(p.max_code);
+  n.min_normal = bits_of(p.min_normal_code);
   // Half a unit more still rounds back, if the tie goes to an even largest number.
-  const int unit = (single ? 23 : 52) - e.fraction_bits;
   n.limit = n.largest;
   if (unit > 0) n.limit += (std::uint64_t{1} << (unit - 1)) - (p.max_code & 1);
+  n.natural_overflow = n.overflow[0] == infinity && n.overflow[1] == infinity && n.infinite == infinity;
   return n;
 }
 
 }  // namespace
 
-bulk_kernels::plan make_plan(const encoding& e, const rules& r, std::uint64_t seed, std::uint64_t first_counter) {
-  bulk_kernels::plan p{};
+void make_plan(bulk_kernels::plan& p, const encoding& e, const rules& r, std::uint64_t seed,
+               std::uint64_t first_counter) {
   p.format = e;
   p.rule = r;
   p.kind = e.kind;
@@ -55,19 +62,21 @@ bulk_kernels::plan make_plan(const encoding& e, const rules& r, std::uint64_t se
   p.min_normal_code = min_normal_bits(e);
   p.seed = seed;
   p.counter = first_counter;
-  p.random_start = mix64(seed + golden) + golden * first_counter;
+  p.random_start = 0;
+  if (r.direction == rounding::stochastic) p.random_start = mix64(seed + golden) + golden * first_counter;
   if (e.kind == family::binary) {
     p.bias = bias(e);
     for (int s = 0; s < 2; ++s) p.overflow_code[s] = overflow_bits(e, s != 0, r, false) & ~p.sign;
     p.infinite_code = overflow_bits(e, false, r, true);
-    p.single = numbers(e, p, true);
-    p.wide = numbers(e, p, false);
+    p.single = numbers(e, p, 23, 8);
+    p.wide = numbers(e, p, 52, 11);
     p.plain = e.has_sign && !p.flush_values && !p.canonical_nan && p.overflow_code[0] == p.overflow_code[1] &&
               p.overflow_code[0] == p.infinite_code &&
               // Without infinities a kernel treats overflow and NaN alike.
               (e.special == specials::ieee || p.infinite_code == p.nan_code);
-    return p;
+    return;
   }
+  const float_environment environment(float_environment::direction::nearest);
   const double last = static_cast<double>(p.max_code);
   p.scale = last;
   p.high = 1;
@@ -79,8 +88,7 @@ bulk_kernels::plan make_plan(const encoding& e, const rules& r, std::uint64_t se
     p.low = e.kind == family::fixed ? -(last + 1) / p.scale : 0;
   }
   p.wide_step = 1 / p.scale;
-  p.single_step = static_cast<float>(1 / p.scale);
-  return p;
+  p.single_step = static_cast<float>(p.wide_step);
 }
 
 void advance(bulk_kernels::plan& p, std::uint64_t offset) {

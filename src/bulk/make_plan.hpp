@@ -5,7 +5,8 @@
 
 namespace bitshade::bulk {
 
-bulk_kernels::plan make_plan(const encoding& e, const rules& r, std::uint64_t seed, std::uint64_t first_counter);
+/// Fills every field but `define`, in a few integer operations.
+void make_plan(bulk_kernels::plan& p, const encoding& e, const rules& r, std::uint64_t seed, std::uint64_t first_counter);
 
 /// The same plan for the elements from `offset` on.
 void advance(bulk_kernels::plan& p, std::uint64_t offset);

@@ -27,6 +27,7 @@ struct lane_numbers {
   std::uint64_t largest;       ///< largest finite number
   std::uint64_t limit;         ///< largest number that does not overflow to nearest even
   std::uint64_t min_normal;
+  bool natural_overflow;       ///< everything too large becomes an infinity, infinities included
 };
 
 struct plan;
@@ -49,7 +50,7 @@ struct plan {
   bool flush_values;  ///< the same when rounding: reading flushes as well
   bool flush_loads;   ///< subnormal codes are read as zero
   bool canonical_nan;
-  bool plain;         ///< overflow gives infinity or saturates alike for every cause, nothing flushed, NaNs kept
+  bool plain;         ///< overflow gives one magnitude for every cause, nothing is flushed, NaNs are kept
   std::uint64_t sign, max_code, nan_code, min_normal_code;
   std::uint64_t overflow_code[2], infinite_code;  ///< magnitudes
   lane_numbers single, wide;                      ///< seen from binary32 and binary64 lanes
@@ -64,9 +65,12 @@ struct plan {
 /// A kernel: n elements from in to out.
 using kernel = void (*)(const plan&, const void* in, void* out, std::size_t n);
 
+/// How a kernel wants the processor's rounding direction and flushing: off and as said, or it does not care.
+enum class setting : std::uint8_t { nearest, toward_zero, any };
+
 struct chosen {
-  kernel run = nullptr;       ///< null where no kernel of this set covers the case
-  bool toward_zero = false;   ///< the rounding direction that it wants the processor to be in
+  kernel run = nullptr;  ///< null where no kernel of this set covers the case
+  setting wants = setting::nearest;
 };
 
 /// What a kernel reads and writes: 'f' and 'd' for float and double, 'b' 'h' 'w' 'q' for codes of 8 to 64 bits.
@@ -75,8 +79,16 @@ struct request {
   char in, out;
 };
 
-namespace sse2 { chosen choose(const plan& p, request r); }
-namespace avx2 { chosen choose(const plan& p, request r); }
-namespace avx512 { chosen choose(const plan& p, request r); }
+namespace sse2 {
+chosen choose(const plan& p, request r);
+}
+namespace avx2 {
+chosen choose(const plan& p, request r);
+chosen choose_native(const encoding& e, const rules& k, request r);  ///< by conversion instructions; needs no plan
+}
+namespace avx512 {
+chosen choose(const plan& p, request r);
+chosen choose_native(const encoding& e, const rules& k, request r);
+}
 
 }  // namespace bitshade::bulk_kernels

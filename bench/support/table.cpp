@@ -1,0 +1,91 @@
+#include "support/table.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <map>
+
+namespace bench {
+namespace {
+
+/// Keeps the least time of every benchmark and prints nothing by itself.
+class minimum_reporter : public benchmark::BenchmarkReporter {
+ public:
+  std::map<std::string, double> least;  // nanoseconds an iteration
+
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& r : runs) {
+      if (r.run_type != Run::RT_Iteration) continue;
+      const double time = r.real_accumulated_time / static_cast<double>(r.iterations) * 1e9;
+      const auto [place, fresh] = least.try_emplace(r.run_name.function_name, time);
+      if (!fresh && time < place->second) place->second = time;
+    }
+  }
+};
+
+}  // namespace
+
+int table::run(int argc, char** argv) {
+  bool strict = false;
+  std::vector<char*> args{argv[0]};
+  // Interleaved repetitions, so that noise meets every row alike; flags on the command line come later and win.
+  static char interleave[] = "--benchmark_enable_random_interleaving=true";
+  static char repetitions[] = "--benchmark_repetitions=50";
+  static char least_time[] = "--benchmark_min_time=0.001";
+  args.insert(args.end(), {interleave, repetitions, least_time});
+  for (int j = 1; j < argc; ++j) {
+    if (std::strcmp(argv[j], "--strict") == 0) strict = true;
+    else args.push_back(argv[j]);
+  }
+  int count = static_cast<int>(args.size());
+  benchmark::Initialize(&count, args.data());
+  if (benchmark::ReportUnrecognizedArguments(count, args.data())) return 1;
+
+  for (const row& r : rows_) {
+    const std::string wrong = r.check ? r.check() : std::string();
+    if (!wrong.empty()) {
+      std::fprintf(stderr, "%s / %s: wrong result: %s\n", r.group.c_str(), r.name.c_str(), wrong.c_str());
+      return 1;
+    }
+    benchmark::RegisterBenchmark((r.group + " / " + r.name).c_str(), [work = r.work](benchmark::State& state) {
+      for (auto _ : state) {
+        work();
+        benchmark::ClobberMemory();
+      }
+    })->UseRealTime();
+  }
+  minimum_reporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+
+  int missed = 0;
+  std::string group;
+  for (const row& r : rows_) {
+    const auto mine = reporter.least.find(r.group + " / " + r.name);
+    if (mine == reporter.least.end()) continue;  // filtered out
+    if (r.group != group) {
+      group = r.group;
+      std::printf("\n%-42s %10s %7s %7s\n", group.c_str(), "ns/element", "ratio", "limit");
+    }
+    std::printf("  %-40s %10.4g", r.name.c_str(), mine->second / static_cast<double>(r.elements));
+    const auto base = reporter.least.find(r.group + " / " + r.base);
+    if (base != reporter.least.end()) {
+      std::size_t base_elements = r.elements;
+      for (const row& b : rows_) {
+        if (b.group == r.group && b.name == r.base) base_elements = b.elements;
+      }
+      const double ratio = mine->second / static_cast<double>(r.elements) /
+                           (base->second / static_cast<double>(base_elements));
+      std::printf(" %7.2f", ratio);
+      if (r.limit > 0) {
+        const bool met = ratio <= r.limit;
+        missed += met ? 0 : 1;
+        std::printf(" %7.2f %s", r.limit, met ? "met" : "MISSED");
+      }
+    }
+    std::printf("\n");
+  }
+  std::printf("\nratio: to the first row of the group that the limit names; %d limits missed\n", missed);
+  return strict && missed != 0 ? 2 : 0;
+}
+
+}  // namespace bench
