@@ -24,6 +24,8 @@ void run_variance_exact(run_context& run);   ///< vsm, lvsm in integers of prove
 void run_depth_native(run_context& run);     ///< hard, pcf in binary32 or binary64
 void run_depth_exact(run_context& run);      ///< hard, pcf without rounding
 
+void run_exponential_native(run_context& run);  ///< evsm2, evsm4, esm
+
 /// The hard test of the map as it is: 1 where x >= t at the nearest texel.
 std::vector<double> hard_exact(const frame& scene, int threads);
 

@@ -4,7 +4,8 @@
 // in units of clamp(x - near, 0, far - near), without its division and with the floor of the whole
 // depth range: sums and products of integers, until p = num / den is rounded once.
 //
-// Widths, with S the depths' fraction bits, E and F of the mip levels and of the lookup:
+// Widths, with S the depths' fraction bits and one more (so that half a difference is an integer),
+// E and F of the mip levels and of the lookup:
 //   y            S + 1 bits in units of 2^-S
 //   first        S + 49 + E          2^-(S + 48 + E)      blur weights: two passes of 2^-24
 //   second       2S + 49 + E         2^-(2S + 48 + E)
@@ -34,7 +35,7 @@ struct fraction {
   wide<Limbs> num, den;
 };
 
-/// S: fraction bits of depths; General: mip levels or several probes a lookup.
+/// S: one more than the fraction bits of depths; General: mip levels or several probes a lookup.
 template <int S, bool General>
 class exact_engine {
  public:
@@ -134,7 +135,7 @@ class exact_engine {
       const auto bits = std::bit_cast<std::uint32_t>(x);
       const std::uint32_t field = bits >> 23 & 0xff;
       const std::uint64_t significand = (bits & 0x7fffff) | (field == 0 ? 0 : 0x800000);
-      return depth_int(significand) << (field == 0 ? 0 : static_cast<int>(field) - 1);
+      return depth_int(significand) << (S - 149 + (field == 0 ? 0 : static_cast<int>(field) - 1));
     }
   }
   /// The layer's own depth, in units of 2^-S.
@@ -154,6 +155,29 @@ class exact_engine {
     }
   }
 
+  /// The square of half of limited_slope(): depths are even, since S is a bit more than they need.
+  static second_int half_slope_squared(const depth_int& before, const depth_int& here,
+                                       const depth_int& after) {
+    if (before < here && here < after) {
+      return squared(std::min<depth_int>(here - before, after - here) >> 1);
+    }
+    if (before > here && here > after) {
+      return squared(std::min<depth_int>(before - here, here - after) >> 1);
+    }
+    return second_int{};
+  }
+  /// Equation (12) on a row of squares.
+  void add_slope(int y, const std::vector<depth_int>& row, std::vector<second_int>& squares) const {
+    const image<float>& depth = scene_.depth;
+    const auto above = depth.row(std::max(y - 1, 0));
+    const auto below = depth.row(std::min(y + 1, depth.height - 1));
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      const auto left = x == 0 ? x : x - 1, right = x + 1 == row.size() ? x : x + 1;
+      squares[x] += half_slope_squared(row[left], row[x], row[right]);
+      squares[x] += half_slope_squared(inside(above[x]), row[x], inside(below[x]));
+    }
+  }
+
   /// Two passes over the map; without a blur the texels are brought to the same unit.
   void blur(level_map& out) {
     const image<float>& depth = scene_.depth;
@@ -168,6 +192,7 @@ class exact_engine {
         row[x] = inside(depth.row(y)[x]);
         squares[x] = squared(row[x]);
       }
+      if (how_.slope_term) add_slope(y, row, squares);
       for (int x = 0; x < width; ++x) {
         first_int sum1{};
         second_int sum2{};

@@ -1,12 +1,14 @@
-// A layer of a variance shadow map in native arithmetic, with its texels rounded to a format
-// between the stages: row kernels over whole maps.
+// A filterable map in native arithmetic, its texels rounded to a format between the stages: row
+// kernels over whole maps. What is stored and how light comes of it is a technique's.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bitshade/shadow/chebyshev.hpp"
+#include "bitshade/shadow/layers.hpp"
 #include "bitshade/shadow/moments.hpp"
 #include "bitshade/texture/blur.hpp"
 #include "bitshade/texture/trilinear.hpp"
@@ -18,46 +20,47 @@
 namespace bitshade {
 
 /// T is float or double; `light` is what a lookup gives.
-template <class T>
+///
+/// A Technique has
+///   channels()                       of a texel
+///   begin(layer)                     before a layer is generated
+///   fill(depth map, y, row)          row y of the unfiltered map
+///   light(values, t)                 of `channels` filtered values, at a receiver's depth in [0,1]
+template <class T, class Technique>
 class native_engine {
  public:
   using light = T;
 
-  native_engine(const frame& scene, const configuration& how, const storage_format& storage,
-                const lookup& look, int threads, cell& times)
+  native_engine(const frame& scene, const configuration& how, Technique technique,
+                const storage_format& storage, const lookup& look, int threads, cell& times)
       : scene_(scene),
         how_(how),
+        technique_(std::move(technique)),
         storage_(storage),
         look_(look),
         blur_(blur_of(how)),
         threads_(threads),
         times_(times) {}
 
-  /// Depth map -> moments -> store -> blur, stored between passes -> mips.
+  /// Depth map -> texels -> store -> blur, stored between passes -> mips.
   void generate(const interval& layer) {
-    layer_ = layer;
+    technique_.begin(layer);
     const image<float>& depth = scene_.depth;
-    image<T> moments(depth.width, depth.height, 2);
-    map_pass(
-        [&](int y) {
-          warp_row<T>(depth.row(y), layer, moments.row(y), 2);
-          square_row<T>(moments.row(y), 2);
-        },
-        moments);
+    const int channels = technique_.channels();
+    image<T> texels(depth.width, depth.height, channels);
+    map_pass([&](int y) { technique_.fill(depth, y, texels.row(y)); }, texels);
     if (blur_.weights.size() > 1) {
-      image<T> across(depth.width, depth.height, 2);
-      map_pass([&](int y) { blur_row_x<T>(moments, blur_, map_address, y, across.row(y)); },
-               across);
-      map_pass([&](int y) { blur_row_y<T>(across, blur_, map_address, y, moments.row(y)); },
-               moments);
+      image<T> across(depth.width, depth.height, channels);
+      map_pass([&](int y) { blur_row_x<T>(texels, blur_, map_address, y, across.row(y)); }, across);
+      map_pass([&](int y) { blur_row_y<T>(across, blur_, map_address, y, texels.row(y)); }, texels);
     }
     chain_.clear();
-    chain_.push_back(std::move(moments));
+    chain_.push_back(std::move(texels));
     if (look_.mips) {
       const int levels = mip_levels(depth.width, depth.height);
       for (int level = 1; level < levels; ++level) {
         const image<T>& from = chain_.back();
-        image<T> next(mip_size(depth.width, level), mip_size(depth.height, level), 2);
+        image<T> next(mip_size(depth.width, level), mip_size(depth.height, level), channels);
         map_pass([&](int y) { downsample_row<T>(from, map_mips, y, next.row(y)); }, next);
         chain_.push_back(std::move(next));
       }
@@ -68,13 +71,13 @@ class native_engine {
   template <class Take>
   void shade(std::span<const std::uint32_t> users, Take take) {
     const stopwatch watch(times_.shade_seconds);
-    const T floor = layer_floor<T>(how_.min_variance, layer_);
     for_ranges(threads_, users.size(), 2048, [&](std::size_t first, std::size_t last) {
+      std::vector<T> values(static_cast<std::size_t>(technique_.channels()));
       for (std::size_t i = first; i < last; ++i) {
         const receiver& r = scene_.receivers[users[i]];
-        const auto [m1, m2] = filtered(r);
-        const T t = warp(clamp_depth(static_cast<T>(r.t)), layer_);
-        take(users[i], chebyshev(mean_and_variance(m1, m2), t, floor));
+        filter(r, values);
+        take(users[i],
+             technique_.light(std::span<const T>(values), clamp_depth(static_cast<T>(r.t))));
       }
     });
   }
@@ -93,21 +96,22 @@ class native_engine {
   const image<T>& texels() const { return chain_.front(); }
 
  private:
-  struct moments_pair {
-    T first, second;
-  };
-
-  moments_pair filtered(const receiver& r) const {
+  void filter(const receiver& r, std::span<T> values) const {
     const T u = static_cast<T>(r.u), v = static_cast<T>(r.v);
     const image<T>& base = chain_.front();
     if (look_.plain()) {
       const auto at = plain_taps<T>(look_, u, v, base.width, base.height);
-      return {bilinear(base, at, 0), bilinear(base, at, 1)};
+      for (int c = 0; c < base.channels; ++c) {
+        values[static_cast<std::size_t>(c)] = bilinear(base, at, c);
+      }
+      return;
     }
     const auto probes = probes_of(r, base.width, base.height, look_.max_anisotropy);
     const std::span<const image<T>> chain(chain_);
-    return {anisotropic<T>(chain, u, v, probes, map_address, 0, map_mip_bits),
-            anisotropic<T>(chain, u, v, probes, map_address, 1, map_mip_bits)};
+    for (int c = 0; c < base.channels; ++c) {
+      values[static_cast<std::size_t>(c)] =
+          anisotropic<T>(chain, u, v, probes, map_address, c, map_mip_bits);
+    }
   }
 
   template <class Row>
@@ -123,12 +127,12 @@ class native_engine {
 
   const frame& scene_;
   const configuration& how_;
+  Technique technique_;
   const storage_format& storage_;
   const lookup look_;
   const kernel blur_;
   const int threads_;
   cell& times_;
-  interval layer_;
   std::vector<image<T>> chain_;
 };
 

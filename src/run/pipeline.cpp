@@ -25,6 +25,11 @@ run_function function_of(const configuration& how) {
     case technique::vsm:
     case technique::lvsm:
       return how.exact() ? run_variance_exact : run_variance_native;
+    case technique::evsm2:
+    case technique::evsm4:
+    case technique::esm:
+      if (!how.exact()) return run_exponential_native;
+      break;
     default:
       break;
   }

@@ -13,6 +13,7 @@ storage_format storage_named(const std::string& format) {
                       std::string(nearest_name(format)) + "?");
   }
   storage_format result;
+  result.format = *code;
   result.bits = code->width;
   // The rule of default_arithmetic: binary32 as far as it holds the format's range and precision.
   result.wide = code->kind == family::binary ? (code->fraction_bits > 23 || code->exponent_bits > 8)

@@ -12,7 +12,8 @@ namespace bitshade {
 
 /// Where values are kept between stages. Without an encoding nothing is rounded.
 struct storage_format {
-  std::optional<encoding> code;  ///< none where the arithmetic's own type holds every value
+  encoding format;               ///< what the name means
+  std::optional<encoding> code;  ///< the same; none where the arithmetic's own type holds it all
   rules rounding;
   bool wide = false;  ///< computed in binary64; else in binary32
   int bits = 0;       ///< of one stored value

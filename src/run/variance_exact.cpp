@@ -17,9 +17,11 @@ void run_in(run_context& run) {
 
 void run_variance_exact(run_context& run) {
   if (depth_bits_of(run.scene) <= common_depth_bits) {
-    run.look.plain() ? run_in<common_depth_bits, false>(run) : run_in<common_depth_bits, true>(run);
+    constexpr int bits = common_depth_bits + 1;
+    run.look.plain() ? run_in<bits, false>(run) : run_in<bits, true>(run);
   } else {
-    run.look.plain() ? run_in<any_depth_bits, false>(run) : run_in<any_depth_bits, true>(run);
+    constexpr int bits = any_depth_bits + 1;
+    run.look.plain() ? run_in<bits, false>(run) : run_in<bits, true>(run);
   }
 }
 

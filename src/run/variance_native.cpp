@@ -1,3 +1,5 @@
+#include "run/variance.hpp"
+
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
@@ -8,7 +10,9 @@ namespace {
 
 template <class T>
 void run_in(run_context& run) {
-  native_engine<T> engine(run.scene, run.how, run.storage, run.look, run.threads, run.result);
+  variance_technique<T> technique(run.how, run.storage, run.scene.depth);
+  native_engine<T, variance_technique<T>> engine(run.scene, run.how, technique, run.storage,
+                                                 run.look, run.threads, run.result);
   run_layers(engine, run.scene, run.how, run.layers,
              run.effects.simulates("layers without receivers"), run.result);
 }

@@ -18,6 +18,15 @@ mean_variance<T> mean_and_variance(const T& m1, const T& m2) {
   return {m1, m2 - m1 * m1};
 }
 
+/// The same from centred storage, m2 = E[4 (x - 1/2)^2].
+///
+///   mu = m1, sigma^2 = m2 / 4 - (m1 - 1/2)^2
+template <class T>
+mean_variance<T> mean_and_centred_variance(const T& m1, const T& m2) {
+  const T off = m1 - static_cast<T>(0.5);
+  return {m1, m2 * static_cast<T>(0.25) - off * off};
+}
+
 /// Upper bound of the light reaching a receiver behind filtered moments.
 ///
 ///   p = 1 if t <= mu, else v / (v + (t - mu)^2),  v = max(sigma^2, floor)

@@ -29,21 +29,37 @@ To stored(const From& x) {
 /// One layer's moments over a map, blurred, and their lookup.
 ///
 /// Policy   P names each stage's arithmetic and storage; the second moment is the square of the
-///          first before it is stored.
+///          first before it is stored, with the slope term (12) where asked.
 /// Source   [LauritzenMcCool08] sections 3 and 4.
 template <numeric_policy P>
 class moment_map {
  public:
   /// Shapes   depth: one channel; blur: an odd kernel, one tap for none.
   moment_map(const image<float>& depth, const interval& layer, const kernel& blur,
-             address mode = address::clamp)
+             address mode = address::clamp, bool slope_term = false)
       : layer_(layer), mode_(mode), texels_(depth.width, depth.height, 2) {
     using load = typename P::load;
-    for (std::size_t i = 0; i < depth.texels.size(); ++i) {
-      const auto x = warp(clamp_depth(static_cast<typename P::warp>(depth.texels[i])), layer);
-      const auto wide = static_cast<typename P::square>(x);
-      texels_.texels[2 * i] = stored<typename P::store, load>(x);
-      texels_.texels[2 * i + 1] = stored<typename P::store, load>(wide * wide);
+    using square = typename P::square;
+    const auto warped = [&](int y) {
+      std::vector<square> row(depth.row_size());
+      for (std::size_t x = 0; x < row.size(); ++x) {
+        row[x] = static_cast<square>(
+            warp(clamp_depth(static_cast<typename P::warp>(depth.row(y)[x])), layer));
+      }
+      return row;
+    };
+    std::vector<square> moments(texels_.row_size());
+    for (int y = 0; y < depth.height; ++y) {
+      const auto here = warped(y);
+      for (std::size_t x = 0; x < here.size(); ++x) moments[2 * x] = here[x];
+      square_row<square>(moments, 2);
+      if (slope_term) {
+        add_slope_row<square>(warped(y == 0 ? 0 : y - 1), here,
+                              warped(y + 1 == depth.height ? y : y + 1), moments, 2);
+      }
+      for (std::size_t i = 0; i < moments.size(); ++i) {
+        texels_.row(y)[i] = stored<typename P::store, load>(moments[i]);
+      }
     }
     if (blur.weights.size() > 1) {
       blur_pass([&](const auto& in, int y, auto out) { blur_row_x(in, blur, mode, y, out); });

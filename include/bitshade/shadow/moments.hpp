@@ -61,4 +61,47 @@ void square_row(std::span<T> row, std::size_t channels) {
   for (std::size_t i = 0; i < row.size(); i += channels) row[i + 1] = row[i] * row[i];
 }
 
+/// The same with the square taken about 1/2: 4 (x - 1/2)^2, which fills [0,1].
+template <class T>
+void centred_square_row(std::span<T> row, std::size_t channels) {
+  for (std::size_t i = 0; i < row.size(); i += channels) {
+    const T off = row[i] - static_cast<T>(0.5);
+    row[i + 1] = static_cast<T>(4) * (off * off);
+  }
+}
+
+/// A texel's slope along one axis: of the differences to both neighbours the smaller one, 0 where
+/// they disagree in sign. At a silhouette one neighbour lies on another surface, and its difference
+/// is no slope at all.
+template <class T>
+T limited_slope(const T& before, const T& here, const T& after) {
+  const T zero = static_cast<T>(0);
+  const T back = here - before, on = after - here;
+  const T back_size = select(back < zero, -back, back), on_size = select(on < zero, -on, on);
+  return select(back * on <= zero, zero, select(back_size < on_size, back, on));
+}
+
+/// Adds the variance that a slanted surface has within its own texel: equation (12).
+///
+///   M2 += ((dx/du)^2 + (dx/dv)^2) / 4,  differences per texel of the *warped* depth
+///
+/// Differences of warped depths obey the chain rule by themselves: no derivative of the warp is
+/// needed, and a clamped depth has no slope.
+///
+/// Shapes   depths of the rows above, here and below (the border repeats), one channel each; row:
+///          the texels, channel 1 is changed.
+/// Policy   every operation is T's.
+/// Source   (12): [LauritzenMcCool08], section 3; [Lauritzen07] for the quarter.
+template <class T>
+void add_slope_row(std::span<const T> above, std::span<const T> here, std::span<const T> below,
+                   std::span<T> row, std::size_t channels) {
+  const T quarter = static_cast<T>(0.25);
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    const T left = here[i == 0 ? 0 : i - 1], right = here[i + 1 == here.size() ? i : i + 1];
+    const T du = limited_slope(left, here[i], right);
+    const T dv = limited_slope(above[i], here[i], below[i]);
+    row[i * channels + 1] = row[i * channels + 1] + quarter * (du * du + dv * dv);
+  }
+}
+
 }  // namespace bitshade

@@ -31,6 +31,16 @@ inline technique technique_named(std::string_view name) {
 /// Where the layers' boundaries come from.
 enum class split_rule { uniform, lloyd, manual };
 
+/// What a variance shadow map stores beside the depth x.
+///
+///   square            x^2, of the depth before it is rounded: the sources' way
+///   square_of_stored  the square of the depth as stored: a texel of one depth errs by q/2, not
+///   3q/2 centred           4 (x - 1/2)^2: the variance's error at mu = 1 falls 2.4 times
+enum class second_moment { square, square_of_stored, centred };
+
+inline constexpr std::array<std::string_view, 3> second_moment_names{"square", "square-of-stored",
+                                                                     "centred"};
+
 /// How the map is read while shading.
 enum class texel_filter { nearest, bilinear, trilinear };
 
@@ -54,6 +64,9 @@ struct configuration {
   int blur_taps = 9;  ///< separable Gaussian; odd, 1 to 25; 0 and 1: none
   double blur_sigma = 2.0;
   double min_variance = 1e-5;  ///< sigma_min^2; the range 1e-6 .. 1e-4 is common
+  bool noise_floor = false;    ///< never a floor under what the format's noise needs for 1/255
+  bool slope_term = false;     ///< the receiver-slope term (12), limited at silhouettes
+  second_moment second = second_moment::square;
   texel_filter filter = texel_filter::bilinear;
   int max_anisotropy = 1;  ///< 1: isotropic; up to 16
 
@@ -77,6 +90,10 @@ struct configuration {
 inline bool uses_floor(technique t) {
   return t == technique::vsm || t == technique::savsm || t == technique::lvsm ||
          t == technique::evsm2 || t == technique::evsm4;
+}
+
+inline bool stores_variance(technique t) {
+  return t == technique::vsm || t == technique::savsm || t == technique::lvsm;
 }
 
 inline int configuration::channels() const {
@@ -133,7 +150,16 @@ inline std::string configuration::key() const {
   if (blurred() && method != technique::hard) {
     add("blur", std::to_string(blur_taps) + "/" + detail::shortest(blur_sigma));
   }
-  if (uses_floor(method)) add("min-variance", detail::shortest(min_variance));
+  if (uses_floor(method)) {
+    add("min-variance", detail::shortest(min_variance));
+    if (noise_floor) add("noise-floor", "on");
+  }
+  if (stores_variance(method)) {
+    if (slope_term) add("slope-term", "on");
+    if (second != second_moment::square) {
+      add("second-moment", std::string(second_moment_names[static_cast<std::size_t>(second)]));
+    }
+  }
   if (method != technique::hard) {
     add("filter", std::string(filter_names[static_cast<std::size_t>(filter)]));
     if (max_anisotropy > 1) add("anisotropy", std::to_string(max_anisotropy));
@@ -183,8 +209,10 @@ inline void configuration::validate() const {
   if (!(blur_sigma > 0 && blur_sigma <= 64)) {
     refuse("blur sigma = " + detail::shortest(blur_sigma) + " is outside 0 to 64 texels");
   }
-  if (!(min_variance >= 0 && min_variance <= 1)) {
-    refuse("min-variance = " + detail::shortest(min_variance) + " is outside 0 to 1");
+  // Exact kernels hold floors of 1e-60 and more as integers of known width.
+  if (!(min_variance == 0 || (min_variance >= 1e-60 && min_variance <= 1))) {
+    refuse("min-variance = " + detail::shortest(min_variance) +
+           " is neither 0 nor between 1e-60 and 1");
   }
   if (max_anisotropy < 1 || max_anisotropy > 16) {
     refuse("anisotropy = " + std::to_string(max_anisotropy) + " is outside 1 to 16");

@@ -50,7 +50,8 @@ void check_against_rationals(const frame& scene, const configuration& how) {
   std::vector<moment_map<policy<q>>> maps;
   for (const auto& layer : intervals) {
     maps.emplace_back(scene.depth, layer,
-                      gaussian_kernel(std::max(1, how.blur_taps), how.blur_sigma));
+                      gaussian_kernel(std::max(1, how.blur_taps), how.blur_sigma), map_address,
+                      how.slope_term);
   }
   const auto in_layer = [&](const receiver& r, int i) {
     const auto k = static_cast<std::size_t>(i);
@@ -133,6 +134,13 @@ TEST_CASE("exact layers in integers equal rationals: mips and anisotropy") {
   how.filter = texel_filter::bilinear;
   check_against_rationals(scene, how);
   check_against_rationals(test::small_frame(7, 11, 12, 5, true), how);
+}
+
+TEST_CASE("exact layers in integers equal rationals: the slope term") {
+  auto how = exact_lvsm(2);
+  how.slope_term = true;
+  check_against_rationals(test::small_frame(12, 14, 40, 14), how);
+  check_against_rationals(test::small_frame(9, 12, 30, 15, true), how);
 }
 
 TEST_CASE("percentage-closer filtering equals its sum in rationals") {

@@ -31,17 +31,19 @@ cell run(const frame& scene, const configuration& how, int threads = 0) {
 
 /// The templated pipeline of format F against the run of the format of that name.
 template <class F>
-void check_definition(const std::string& name) {
+void check_definition(const std::string& name, bool slope_term = false) {
   const auto scene = test::small_frame(23, 17, 200, 7);
   configuration how;
   how.method = technique::lvsm;
   how.format = name;
   how.layers = 3;
   how.overlap = 0.03;
+  how.slope_term = slope_term;
   const auto got = run(scene, how);
   std::vector<moment_map<policy<F>>> maps;
   for (const auto& layer : layer_intervals(got.splits, how.overlap)) {
-    maps.emplace_back(scene.depth, layer, gaussian_kernel(how.blur_taps, how.blur_sigma));
+    maps.emplace_back(scene.depth, layer, gaussian_kernel(how.blur_taps, how.blur_sigma),
+                      address::clamp, slope_term);
   }
   for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
     const receiver& r = scene.receivers[i];
@@ -66,6 +68,9 @@ TEST_CASE("row kernels and run-time rounding equal the templated definition") {
   check_definition<binary<5, 7>>("e5m7");
   check_definition<binary32>("binary32");
   check_definition<binary64>("binary64");
+  check_definition<unorm16>("unorm16", true);
+  check_definition<binary16>("half", true);
+  check_definition<binary64>("binary64", true);
 }
 
 TEST_CASE("an LVSM of one layer is a VSM, bit for bit, in every format") {

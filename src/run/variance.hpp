@@ -1,0 +1,110 @@
+// What a variance shadow map stores, and how light comes of it: the technique of native_engine.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "bitshade/formats/decode.hpp"
+#include "bitshade/shadow/chebyshev.hpp"
+#include "bitshade/shadow/moments.hpp"
+#include "bitshade/study/bounds.hpp"
+#include "bitshade/study/bounds_visibility.hpp"
+#include "bitshade/study/configuration.hpp"
+#include "bitshade/study/measures.hpp"
+#include "bitshade/texture/image.hpp"
+#include "bitshade/texture/mip.hpp"
+#include "run/storage.hpp"
+
+namespace bitshade {
+
+/// How often a moment is rounded on its way to the light: the store, two blur passes, mips.
+inline int roundings_of(const configuration& how, const image<float>& depth) {
+  const int mips =
+      how.filter == texel_filter::trilinear ? mip_levels(depth.width, depth.height) - 1 : 0;
+  return 1 + (how.blurred() ? 2 : 0) + mips;
+}
+
+/// The largest error of a variance that a format's roundings can cause, in a layer's own units.
+inline double variance_noise(const configuration& how, const storage_format& storage,
+                             const image<float>& depth) {
+  const int roundings = roundings_of(how, depth);
+  if (storage.format.kind == family::binary) {
+    const double u = 1.0 / static_cast<double>(std::uint64_t{2} << storage.format.fraction_bits);
+    return variance_error_floating(roundings * u, 1.0);
+  }
+  const double error = moment_error(decode(storage.format, 1), roundings);
+  return how.second == second_moment::centred ? variance_error_centred(error, 1.0)
+                                              : variance_error(error, 1.0).width();
+}
+
+/// The smallest floor, in a layer's own units, that the noise lets keep 1/255; 0 where not asked.
+inline double noise_floor(const configuration& how, const storage_format& storage,
+                          const image<float>& depth) {
+  return how.noise_floor ? floor_for(variance_noise(how, storage, depth), tolerated_error) : 0.0;
+}
+
+template <class T>
+class variance_technique {
+ public:
+  variance_technique(const configuration& how, const storage_format& storage,
+                     const image<float>& depth)
+      : how_(how),
+        storage_(storage),
+        least_floor_(static_cast<T>(noise_floor(how, storage, depth))) {}
+
+  int channels() const { return 2; }
+
+  void begin(const interval& layer) {
+    layer_ = layer;
+    floor_ = std::max(layer_floor<T>(how_.min_variance, layer), least_floor_);
+  }
+
+  void fill(const image<float>& depth, int y, std::span<T> row) const {
+    warp_row<T>(depth.row(y), layer_, row, 2);
+    switch (how_.second) {
+      case second_moment::square:
+        square_row<T>(row, 2);
+        break;
+      case second_moment::square_of_stored:
+        round_row(storage_, row);  // channel 1 is overwritten at once
+        square_row<T>(row, 2);
+        break;
+      case second_moment::centred:
+        centred_square_row<T>(row, 2);
+        break;
+    }
+    if (how_.slope_term) add_slope(depth, y, row);
+  }
+
+  T light(std::span<const T> values, const T& t) const {
+    const auto at = how_.second == second_moment::centred
+                        ? mean_and_centred_variance(values[0], values[1])
+                        : mean_and_variance(values[0], values[1]);
+    return chebyshev(at, warp(t, layer_), floor_);
+  }
+
+ private:
+  void add_slope(const image<float>& depth, int y, std::span<T> row) const {
+    std::vector<T> rows[3];
+    for (int k = 0; k < 3; ++k) {
+      rows[k].resize(static_cast<std::size_t>(depth.width));
+      warp_row<T>(depth.row(std::clamp(y + k - 1, 0, depth.height - 1)), layer_, rows[k], 1);
+    }
+    // In centred storage, 4 (x - 1/2)^2, a variance counts four times.
+    if (how_.second == second_moment::centred) {
+      for (auto& r : rows) {
+        for (T& x : r) x = x + x;
+      }
+    }
+    add_slope_row<T>(rows[0], rows[1], rows[2], row, 2);
+  }
+
+  const configuration& how_;
+  const storage_format& storage_;
+  T least_floor_;
+  T floor_{};
+  interval layer_;
+};
+
+}  // namespace bitshade
