@@ -77,6 +77,18 @@ class real {
   static constexpr real from_bits(bits_type bits) {
     return make(traits::broadcast(static_cast<scalar>(decode(E, bits))));
   }
+  /// The value that an exact result rounds to: how functions outside this class finish.
+  static constexpr real from_exact(const exact_result& x)
+    requires(traits::lanes == 1)
+  {
+    return make(static_cast<scalar>(decode(E, round_result(E, x, R))));
+  }
+  /// The value as an operand: a zero where R flushes subnormal inputs.
+  constexpr double operand() const
+    requires(traits::lanes == 1)
+  {
+    return flushes_input(R.subnormal) ? decode(E, bits(), R) : static_cast<double>(value_);
+  }
   constexpr bits_type bits() const
     requires(traits::lanes == 1)
   {

@@ -48,8 +48,8 @@ constexpr std::uint64_t assemble(const encoding& e, bool negative, std::int64_t 
 
 /// The bits of (-1)^negative n 2^exponent, plus something below n's last bit if sticky.
 ///
-/// Failure  sticky is only allowed where n has at least 120 bits or the family is not a norm, since a norm
-///          multiplies by 2^N - 1 first.
+/// Failure  for norms, which multiply by 2^N - 1 first, n is exact up to 128 - N bits; beyond, or where sticky, x must
+///          not be so near to one of their steps or ties that the missing bits decide.
 constexpr std::uint64_t encode_scaled(const encoding& e, bool negative, uint128 n, std::int64_t exponent, bool sticky,
                                       const rules& r, std::uint64_t random) {
   if (n == 0 && !sticky) return negative && e.kind == family::binary ? sign_bit(e) : 0;
@@ -61,7 +61,16 @@ constexpr std::uint64_t encode_scaled(const encoding& e, bool negative, uint128 
       return assemble(e, negative, ulp, scaled(n, exponent - ulp, sticky), r, random);
     }
     case family::unorm:
-    case family::snorm: return assemble(e, negative, 0, scaled(n * max_bits(e), exponent, sticky), r, random);
+    case family::snorm: {
+      // Room for the product with 2^N - 1; what a long n loses, a result that was inexact anyway does not miss.
+      const int spare = 128 - e.width - bit_width(n);
+      if (spare < 0) {
+        sticky = sticky || (n & ((uint128{1} << -spare) - 1)) != 0;
+        n >>= -spare;
+        exponent -= spare;
+      }
+      return assemble(e, negative, 0, scaled(n * max_bits(e), exponent, sticky), r, random);
+    }
     case family::ufixed:
     case family::fixed: return assemble(e, negative, 0, scaled(n, exponent + e.fraction_bits, sticky), r, random);
   }

@@ -1,0 +1,195 @@
+// <cmath> for real: every function the exact result, rounded once.
+//
+// Error    correctly rounded wherever the format has at most 24 bits of precision; above that wherever the exact
+//          result is farther than 2^-108 (relative) from a tie or number of the format, else within 1 ulp.
+// Source   long_float.hpp, exponential.hpp, trigonometric.hpp; docs/contract.md.
+#pragma once
+
+#include "bitshade/arithmetic/real.hpp"
+#include "bitshade/arithmetic/trigonometric.hpp"
+
+namespace bitshade {
+
+namespace detail {
+
+/// An integer near x: exact in every direction; the sign of a zero is x's.
+constexpr double integral(double x, rounding direction) {
+  const std::uint64_t sign = std::bit_cast<std::uint64_t>(x) & (std::uint64_t{1} << 63);
+  const double size = elementary::magnitude(x);
+  if (!(size < 0x1p52)) return x;
+  const exact_result u = unpack(size);
+  rules r;
+  r.direction = direction;
+  const std::uint64_t whole = round_quotient(scaled(u.n, u.exponent), sign != 0, r, 0);
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(static_cast<double>(whole)) | sign);
+}
+
+/// x - n y with n = x / y truncated, or rounded to nearest even: exact.
+constexpr double modulo(double x, double y, bool nearest) {
+  const exact_result a = unpack(x), b = unpack(y);
+  if (!a.is_finite() || b.what == exact_result::kind::nan || b.is_zero())
+    return std::bit_cast<double>(nan_bits(binary_encoding(11, 52)));
+  if (!b.is_finite() || a.is_zero()) return x;
+  // Both on the grid of the finer one; where x's is coarser, its excess of twos goes in modulo y.
+  const std::int64_t low = a.exponent < b.exponent ? a.exponent : b.exponent;
+  if (b.exponent - low > 60) {
+    // |x| < 2^53 units, |y| at least 2^60 of them: n = 0.
+    return x;
+  }
+  const uint128 d = b.n << (b.exponent - low);
+  uint128 rest = a.n % d;
+  bool odd = ((a.n / d) & 1) != 0;
+  for (std::int64_t i = a.exponent - low; i > 0; --i) {
+    rest <<= 1;
+    odd = rest >= d;
+    if (odd) rest -= d;
+  }
+  bool negative = a.negative;
+  if (nearest && (2 * rest > d || (2 * rest == d && odd))) {
+    rest = d - rest;
+    negative = !negative;
+  }
+  constexpr encoding wide = binary_encoding(11, 52);
+  if (rest == 0) negative = a.negative;
+  return std::bit_cast<double>(encode_scaled(wide, negative, rest, low, false, {}, 0));
+}
+
+}  // namespace detail
+
+// One line a function; the work is done in elementary::.
+#define BITSHADE_REAL template <class F, rules R, class C> constexpr real<F, R, C>
+#define BITSHADE_FUNCTION(name) \
+  BITSHADE_REAL name(const real<F, R, C>& x) { return real<F, R, C>::from_exact(elementary::name(x.operand())); }
+BITSHADE_FUNCTION(exp)
+BITSHADE_FUNCTION(exp2)
+BITSHADE_FUNCTION(expm1)
+BITSHADE_FUNCTION(log)
+BITSHADE_FUNCTION(log2)
+BITSHADE_FUNCTION(log10)
+BITSHADE_FUNCTION(log1p)
+BITSHADE_FUNCTION(cbrt)
+BITSHADE_FUNCTION(sin)
+BITSHADE_FUNCTION(cos)
+BITSHADE_FUNCTION(tan)
+BITSHADE_FUNCTION(asin)
+BITSHADE_FUNCTION(acos)
+BITSHADE_FUNCTION(atan)
+BITSHADE_FUNCTION(sinh)
+BITSHADE_FUNCTION(cosh)
+BITSHADE_FUNCTION(tanh)
+BITSHADE_FUNCTION(asinh)
+BITSHADE_FUNCTION(acosh)
+BITSHADE_FUNCTION(atanh)
+#undef BITSHADE_FUNCTION
+
+// std::type_identity_t lets the second argument be a float or an int, as it may for float.
+BITSHADE_REAL pow(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+  return real<F, R, C>::from_exact(elementary::pow(x.operand(), y.operand()));
+}
+BITSHADE_REAL atan2(const real<F, R, C>& y, const std::type_identity_t<real<F, R, C>>& x) {
+  return real<F, R, C>::from_exact(elementary::atan2(y.operand(), x.operand()));
+}
+/// sqrt(x^2 + y^2) without overflow or underflow on the way, rounded once.
+BITSHADE_REAL hypot(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+  exact_result a = unpack(x.operand()), b = unpack(y.operand());
+  using kind = exact_result::kind;
+  if (a.what == kind::infinite || b.what == kind::infinite)
+    return real<F, R, C>::from_exact(exact_result::infinity(false));
+  if (a.what == kind::nan || b.what == kind::nan) return real<F, R, C>::from_exact(exact_result::nan());
+  a = {kind::finite, false, a.n * a.n, 2 * a.exponent, false};
+  b = {kind::finite, false, b.n * b.n, 2 * b.exponent, false};
+  const exact_result square = sum_of(a, b, R.direction);
+  if (square.is_zero()) return real<F, R, C>::from_exact(exact_result::zero(false));
+  exact_result result = root_of(square);
+  result.sticky = result.sticky || square.sticky;
+  return real<F, R, C>::from_exact(result);
+}
+
+BITSHADE_REAL floor(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::down); }
+BITSHADE_REAL ceil(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::up); }
+BITSHADE_REAL trunc(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::toward_zero); }
+BITSHADE_REAL round(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::nearest_away); }
+BITSHADE_REAL rint(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::nearest_even); }
+BITSHADE_REAL nearbyint(const real<F, R, C>& x) { return rint(x); }
+BITSHADE_REAL fmod(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+  return detail::modulo(x.operand(), y.operand(), false);
+}
+BITSHADE_REAL remainder(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+  return detail::modulo(x.operand(), y.operand(), true);
+}
+BITSHADE_REAL modf(const real<F, R, C>& x, real<F, R, C>* whole) {
+  *whole = trunc(x);
+  return isinf(x) ? copysign(real<F, R, C>(0), x) : copysign(x - *whole, x);
+}
+
+template <class F, rules R, class C> constexpr bool isnan(const real<F, R, C>& x) { return x != x; }
+template <class F, rules R, class C> constexpr bool isfinite(const real<F, R, C>& x) {
+  return x.carrier() - x.carrier() == 0;
+}
+template <class F, rules R, class C> constexpr bool isinf(const real<F, R, C>& x) { return !isnan(x) && !isfinite(x); }
+template <class F, rules R, class C> constexpr bool isnormal(const real<F, R, C>& x) {
+  return isfinite(x) && x != real<F, R, C>(0) &&
+         (F::value.kind != family::binary || !(abs(x) < real<F, R, C>::from_bits(
+              static_cast<typename F::bits_type>(min_normal_bits(F::value)))));
+}
+template <class F, rules R, class C> constexpr bool signbit(const real<F, R, C>& x) {
+  return (std::bit_cast<std::uint64_t>(static_cast<double>(x.carrier())) >> 63) != 0;
+}
+BITSHADE_REAL copysign(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& sign) {
+  return signbit(x) == signbit(sign) ? x : -x;
+}
+
+// As <cmath> has them: a NaN gives way to a number. std::min and std::max work as they are.
+BITSHADE_REAL fmin(const real<F, R, C>& a, const std::type_identity_t<real<F, R, C>>& b) {
+  return isnan(a) || b < a ? b : a;
+}
+BITSHADE_REAL fmax(const real<F, R, C>& a, const std::type_identity_t<real<F, R, C>>& b) {
+  return isnan(a) || a < b ? b : a;
+}
+BITSHADE_REAL fdim(const real<F, R, C>& a, const std::type_identity_t<real<F, R, C>>& b) {
+  return a <= b ? real<F, R, C>(0) : a - b;
+}
+
+/// x 2^n, rounded once.
+BITSHADE_REAL ldexp(const real<F, R, C>& x, int n) {
+  exact_result u = unpack(x.operand());
+  if (u.is_finite()) u.exponent += n;
+  return real<F, R, C>::from_exact(u);
+}
+BITSHADE_REAL scalbn(const real<F, R, C>& x, int n) { return ldexp(x, n); }
+template <class F, rules R, class C> constexpr int ilogb(const real<F, R, C>& x) {
+  const exact_result u = unpack(x.operand());
+  if (!u.is_finite()) return std::numeric_limits<int>::max();
+  return u.n == 0 ? -std::numeric_limits<int>::max() : static_cast<int>(u.exponent) + bit_width(u.n) - 1;
+}
+BITSHADE_REAL logb(const real<F, R, C>& x) {
+  if (!isfinite(x)) return abs(x);
+  if (x == real<F, R, C>(0)) return real<F, R, C>::from_exact(exact_result::infinity(true));
+  return ilogb(x);
+}
+/// x = f 2^n with 1/2 <= |f| < 1.
+BITSHADE_REAL frexp(const real<F, R, C>& x, int* n) {
+  *n = 0;
+  if (!isfinite(x) || x == real<F, R, C>(0)) return x;
+  *n = ilogb(x) + 1;
+  return ldexp(x, -*n);
+}
+/// The neighbour of x toward y.
+BITSHADE_REAL nextafter(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+  using T = real<F, R, C>;
+  if (isnan(x) || isnan(y)) return T::from_exact(exact_result::nan());
+  if (x == y) return y;
+  const bool up = x < y;
+  constexpr encoding e = F::value;
+  const auto code = [](std::uint64_t bits) { return T::from_bits(static_cast<typename T::bits_type>(bits)); };
+  if (e.kind != family::binary) {
+    // Codes are integers: one more or one less, unless x is at that end already.
+    const T next = code((x.bits() + (up ? 1 : ~std::uint64_t{0})) & low_bits(e.width));
+    return (x < next) == up && x != next ? next : x;
+  }
+  if (x == T(0)) return up || !e.has_sign ? code(1) : code(sign_bit(e) | 1);
+  return code(signbit(x) == up ? x.bits() - std::uint64_t{1} : x.bits() + std::uint64_t{1});
+}
+#undef BITSHADE_REAL
+
+}  // namespace bitshade

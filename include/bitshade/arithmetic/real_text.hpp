@@ -1,0 +1,75 @@
+// real in and out of text: streams, and literals that round once.
+#pragma once
+
+#include <istream>
+#include <ostream>
+#include <string>
+
+#include "bitshade/arithmetic/real.hpp"
+#include "bitshade/formats/text.hpp"
+
+namespace bitshade {
+
+/// The number that a text says, rounded once from all its digits. Failure  NaN (0 where there is none).
+template <class T>
+  requires real_number<T>
+constexpr T from_text(std::string_view text) {
+  const auto x = parse_number(text);
+  if (!x) return T::from_exact(exact_result::nan());
+  return T::from_bits(static_cast<typename T::bits_type>(encode(T::encoding_value, *x, T::rules_value)));
+}
+
+/// As the stream would write the double: its flags, its locale.
+template <class F, rules R, class C>
+std::ostream& operator<<(std::ostream& out, const real<F, R, C>& x) {
+  return out << static_cast<double>(x);
+}
+
+/// One word of text, read as parse_number does, in any locale; failbit where it is no number.
+template <class F, rules R, class C>
+std::istream& operator>>(std::istream& in, real<F, R, C>& x) {
+  std::string word;
+  if (!(in >> std::ws)) return in;
+  // What can belong to a number, so that "1.5)" leaves the bracket.
+  for (int c = in.peek(); c != std::char_traits<char>::eof(); c = in.peek()) {
+    const char ch = static_cast<char>(c);
+    const bool letter = (ch >= 'a' && ch <= 'z') || (ch >= 'A' && ch <= 'Z');
+    const bool sign = (ch == '+' || ch == '-') && (word.empty() || word.back() == 'e' || word.back() == 'E' ||
+                                                   word.back() == 'p' || word.back() == 'P');
+    if (!(letter || (ch >= '0' && ch <= '9') || ch == '.' || sign)) break;
+    word += ch;
+    in.get();
+  }
+  if (const auto number = parse_number(word)) {
+    x = real<F, R, C>::from_bits(static_cast<typename F::bits_type>(encode(F::value, *number, R)));
+  } else {
+    in.setstate(std::ios::failbit);
+  }
+  return in;
+}
+
+/// using namespace bitshade::literals; then 0.1_half is rounded once, by the compiler, from its text.
+namespace literals {
+
+namespace detail {
+template <class T, char... Text>
+consteval T literal() {
+  char text[] = {Text...};
+  // Digit separators are the language's, not the number's.
+  std::size_t n = 0;
+  for (const char c : text) {
+    if (c != '\'') text[n++] = c;
+  }
+  return from_text<T>({text, n});
+}
+}  // namespace detail
+
+template <char... Text> consteval auto operator""_half() { return detail::literal<real<binary16>, Text...>(); }
+template <char... Text> consteval auto operator""_bf16() { return detail::literal<real<bfloat16>, Text...>(); }
+template <char... Text> consteval auto operator""_tf32() { return detail::literal<real<tf32>, Text...>(); }
+template <char... Text> consteval auto operator""_e5m2() { return detail::literal<real<fp8_e5m2>, Text...>(); }
+template <char... Text> consteval auto operator""_e4m3() { return detail::literal<real<fp8_e4m3>, Text...>(); }
+
+}  // namespace literals
+
+}  // namespace bitshade
