@@ -12,6 +12,9 @@ namespace bitshade::command {
 void add_depth(CLI::App& app);
 void add_round(CLI::App& app);
 void add_formats(CLI::App& app);
+void add_sample(CLI::App& app);
+void add_mipmap(CLI::App& app);
+void add_convert(CLI::App& app);
 
 /// Parses the arguments and runs the command that they name; returns the exit status:
 /// 0 done, 1 it could not be done, 2 the arguments make no sense.

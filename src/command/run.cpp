@@ -24,6 +24,9 @@ void declare(CLI::App& app) {
   add_depth(app);
   add_round(app);
   add_formats(app);
+  add_sample(app);
+  add_mipmap(app);
+  add_convert(app);
 }
 
 int complain(int status, const std::string& sentence) {

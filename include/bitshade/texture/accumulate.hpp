@@ -41,9 +41,12 @@ T interpolate(const filter_model& model, const T& a, const T& b, const T& f) {
     return rounded<T>(model, a + rounded<T>(model, f * (b - a)));
   }
   T value;
-  if (model.order == accumulation::lerp_fma) value = fused<T>(f, b - a, a);
-  else if (model.order == accumulation::four_products) value = (static_cast<T>(1) - f) * a + f * b;
-  else value = a + f * (b - a);
+  if (model.order == accumulation::lerp_fma)
+    value = fused<T>(f, b - a, a);
+  else if (model.order == accumulation::four_products)
+    value = (static_cast<T>(1) - f) * a + f * b;
+  else
+    value = a + f * (b - a);
   return model.rounding == intermediate::per_lerp ? rounded<T>(model, value) : value;
 }
 

@@ -105,7 +105,7 @@ float ewa_sum(const ewa_ellipse& e, bool llvmpipe, float s, float t, int base_wi
   for (int v = v0; v <= v1; ++v) {
     const float v_from = static_cast<float>(v) - tex_v;
     float dq = e.a * (2 * u_from + 1) + e.b * v_from;
-    float q = (e.c * v_from + e.b * u_from) * v_from + 
+    float q = (e.c * v_from + e.b * u_from) * v_from +
               (llvmpipe ? u_from * u_from * e.a : e.a * u_from * u_from);
     for (int u = u0; u <= u1; ++u) {
       if (q < static_cast<float>(ewa_detail::table_size)) {

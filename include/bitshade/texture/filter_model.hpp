@@ -59,12 +59,12 @@ enum class log2_rule : std::uint8_t {
 };
 
 enum class anisotropy_rule : std::uint8_t {
-  vulkan,       ///< N = ceil(ratio) probes at i/(N+1) - 1/2 along the longer derivative
-  determinant,  ///< SwiftShader: N = nearest(min(major^2/|det|, limit)), spacing 1/N
-  ellipse,      ///< D3D: axes of the ellipse that the derivatives span, spacing 1/N
-  feline,       ///< Gaussian-weighted probes along the ellipse's major axis
-  ewa_unlimited, ///< elliptical weighted average of one level, the limit ignored
-  ewa            ///< the same, the limit honoured
+  vulkan,         ///< N = ceil(ratio) probes at i/(N+1) - 1/2 along the longer derivative
+  determinant,    ///< SwiftShader: N = nearest(min(major^2/|det|, limit)), spacing 1/N
+  ellipse,        ///< D3D: axes of the ellipse that the derivatives span, spacing 1/N
+  feline,         ///< Gaussian-weighted probes along the ellipse's major axis
+  ewa_unlimited,  ///< elliptical weighted average of one level, the limit ignored
+  ewa             ///< the same, the limit honoured
 };
 
 /// How a device samples.
@@ -91,7 +91,8 @@ struct filter_model {
   log2_rule log2 = log2_rule::nearest;
   anisotropy_rule anisotropy = anisotropy_rule::vulkan;
 
-  rules store{};  ///< rounding and overflow of float stores
+  rules store{};              ///< rounding and overflow of float stores
+  bool scaled_store = false;  ///< norms by fl(x * max) instead of the nearest code
   mip_filter mips = mip_filter::centre;
 };
 

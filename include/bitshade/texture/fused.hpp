@@ -35,9 +35,12 @@ inline float fused(float a, float b, float c) {
 /// The same for other types: their own fma where they have one, else a*b + c (exact types).
 template <class T>
 T fused(const T& a, const T& b, const T& c) {
-  if constexpr (std::is_floating_point_v<T>) return std::fma(a, b, c);
-  else if constexpr (requires { fma(a, b, c); }) return fma(a, b, c);
-  else return a * b + c;
+  if constexpr (std::is_floating_point_v<T>)
+    return std::fma(a, b, c);
+  else if constexpr (requires { fma(a, b, c); })
+    return fma(a, b, c);
+  else
+    return a * b + c;
 }
 
 }  // namespace bitshade

@@ -21,18 +21,26 @@ struct image {
 
   image() = default;
   image(int w, int h, int c = 1, T fill = T{})
-      : width(w), height(h), channels(c),
-        texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c), fill) {}
+      : width(w),
+        height(h),
+        channels(c),
+        texels(
+            static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(c),
+            fill) {}
 
   std::size_t offset(int x, int y, int c = 0) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
-               static_cast<std::size_t>(channels) + static_cast<std::size_t>(c);
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+            static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(channels) +
+           static_cast<std::size_t>(c);
   }
   T& at(int x, int y, int c = 0) { return texels[offset(x, y, c)]; }
   const T& at(int x, int y, int c = 0) const { return texels[offset(x, y, c)]; }
   std::span<T> row(int y) { return {texels.data() + offset(0, y), row_size()}; }
   std::span<const T> row(int y) const { return {texels.data() + offset(0, y), row_size()}; }
-  std::size_t row_size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels); }
+  std::size_t row_size() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
+  }
 
   friend bool operator==(const image&, const image&) = default;
 };

@@ -33,7 +33,8 @@ inline float model_log2(log2_rule rule, float x) {
   const auto bits = std::bit_cast<std::uint32_t>(x);
   const auto exponent = static_cast<float>(static_cast<int>((bits >> 23) & 255) - 127);
   switch (rule) {
-    case log2_rule::nearest: return static_cast<float>(log2_fixed(static_cast<double>(x)));
+    case log2_rule::nearest:
+      return static_cast<float>(log2_fixed(static_cast<double>(x)));
     case log2_rule::mantissa_line:
       return exponent + (std::bit_cast<float>((bits & 0x7fffffu) | 0x3f800000u) - 1.0f);
     case log2_rule::table_256:
@@ -75,10 +76,12 @@ inline float half_log2(log2_rule rule, float square) {
 inline float model_lambda(const filter_model& model, const gradients& g, int width, int height) {
   const derivative_lengths d(g, width, height);
   if (model.rho == rho_rule::max_abs) {
-    const float x = std::max(std::fabs(static_cast<float>(g.du_dx)),
-                             std::fabs(static_cast<float>(g.du_dy))) * static_cast<float>(width);
-    const float y = std::max(std::fabs(static_cast<float>(g.dv_dx)),
-                             std::fabs(static_cast<float>(g.dv_dy))) * static_cast<float>(height);
+    const float x =
+        std::max(std::fabs(static_cast<float>(g.du_dx)), std::fabs(static_cast<float>(g.du_dy))) *
+        static_cast<float>(width);
+    const float y =
+        std::max(std::fabs(static_cast<float>(g.dv_dx)), std::fabs(static_cast<float>(g.dv_dy))) *
+        static_cast<float>(height);
     return model_log2(model.log2, std::max(x, y));
   }
   return half_log2(model.log2, std::max(d.x2, d.y2));

@@ -80,6 +80,7 @@ constexpr filter_model llvmpipe() {
   m.log2 = log2_rule::mantissa_line;
   m.anisotropy = anisotropy_rule::ewa_unlimited;
   m.store = toward_zero_saturating();
+  m.scaled_store = true;
   return m;
 }
 
@@ -117,15 +118,16 @@ constexpr filter_model swiftshader() {
   m.repeat = repeat_rule::fraction;
   m.log2 = log2_rule::squared_as_bits;
   m.anisotropy = anisotropy_rule::determinant;
+  m.scaled_store = true;
   return m;
 }
 
 }  // namespace preset_detail
 
 inline constexpr std::array<filter_model, 8> presets{
-    preset_detail::exact(),       preset_detail::d3d11(),    preset_detail::vulkan_strict(),
-    preset_detail::cuda(),        preset_detail::llvmpipe(), preset_detail::llvmpipe_r8(),
-    preset_detail::softpipe(),    preset_detail::swiftshader()};
+    preset_detail::exact(),    preset_detail::d3d11(),      preset_detail::vulkan_strict(),
+    preset_detail::cuda(),     preset_detail::llvmpipe(),   preset_detail::llvmpipe_r8(),
+    preset_detail::softpipe(), preset_detail::swiftshader()};
 
 /// The preset of that name, or nothing.
 constexpr std::optional<filter_model> find_preset(std::string_view name) {

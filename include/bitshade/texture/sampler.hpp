@@ -108,20 +108,20 @@ T sample_gradients(const filter_model& model, std::span<const image<T>> chain, c
     const int limit = model.anisotropy == anisotropy_rule::ewa ? state.max_anisotropy : 0;
     const int last = static_cast<int>(chain.size()) - 1;
     const int level = ewa_level(model, g, base.width, base.height, limit);
-    if (level >= last)
-      return sample_level(model, chain.back(), u, v, state, channel);
+    if (level >= last) return sample_level(model, chain.back(), u, v, state, channel);
     const ewa_ellipse ellipse(g, base.width, base.height, std::max(0, level));
     const bool llvmpipe = model.anisotropy == anisotropy_rule::ewa_unlimited;
     const image<T>& in = chain[static_cast<std::size_t>(std::max(0, level))];
     return static_cast<T>(ewa_sum(ellipse, llvmpipe, static_cast<float>(u), static_cast<float>(v),
                                   base.width, base.height, [&](float s, float t) {
-      return static_cast<float>(sampler_detail::texel_or_border(
-          in, nearest_axis(model, s, in.width, state.u), nearest_axis(model, t, in.height, state.v),
-          channel, state));
-    }));
+                                    return static_cast<float>(sampler_detail::texel_or_border(
+                                        in, nearest_axis(model, s, in.width, state.u),
+                                        nearest_axis(model, t, in.height, state.v), channel,
+                                        state));
+                                  }));
   }
-  const probe_plan plan = plan_probes(model.anisotropy, model.log2, g, base.width, base.height,
-                                      state.max_anisotropy);
+  const probe_plan plan =
+      plan_probes(model.anisotropy, model.log2, g, base.width, base.height, state.max_anisotropy);
   const auto level = [&](int l) {
     T at_u = u + static_cast<T>(plan.first) * static_cast<T>(plan.du);
     T at_v = v + static_cast<T>(plan.first) * static_cast<T>(plan.dv);
@@ -129,14 +129,16 @@ T sample_gradients(const filter_model& model, std::span<const image<T>> chain, c
     const T step_v = static_cast<T>(plan.dv) * static_cast<T>(plan.spacing);
     T sum = static_cast<T>(0);
     for (int i = 0; i < plan.count; ++i) {
-      sum = sum + sample_level(model, chain[static_cast<std::size_t>(l)], at_u, at_v, state, channel) *
-                      static_cast<T>(plan.weight(i));
+      sum = sum +
+            sample_level(model, chain[static_cast<std::size_t>(l)], at_u, at_v, state, channel) *
+                static_cast<T>(plan.weight(i));
       at_u = at_u + step_u;
       at_v = at_v + step_v;
     }
     return sum;
   };
-  return blend_levels(model, state, static_cast<T>(plan.lambda), static_cast<int>(chain.size()), level);
+  return blend_levels(model, state, static_cast<T>(plan.lambda), static_cast<int>(chain.size()),
+                      level);
 }
 
 }  // namespace bitshade

@@ -1,0 +1,98 @@
+// Mip chains whose only roundings are the stores between levels.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "bitshade/texture/certified.hpp"
+#include "bitshade/texture/mip.hpp"
+#include "bitshade/texture/storage.hpp"
+
+namespace bitshade {
+
+/// The code of an exact rational, rounded once to nearest even.
+///
+/// The value goes through binary64 rounded to odd, which no second rounding can spoil (at most 40
+/// bits are asked for); norms are scaled by their maximum first.
+/// Source   [BoldoMelquiond08].
+template <class T>
+std::uint64_t encode_exact(const encoding& e, const T& x) {
+  const int digits = e.kind == family::snorm ? e.width - 1 : e.width;
+  const bool norm = is_norm(e);
+  const T scaled =
+      norm ? x * static_cast<T>(static_cast<double>((std::uint64_t{1} << digits) - 1)) : x;
+  const double nearest = certified_detail::nearest_of<double, T>(scaled);
+  double odd = nearest;
+  if (!(static_cast<T>(nearest) == scaled)) {
+    auto bits = std::bit_cast<std::uint64_t>(nearest);
+    const bool above = scaled < static_cast<T>(nearest);
+    if ((bits & 1) == 0) bits += above == (nearest > 0) ? std::uint64_t(-1) : 1;
+    odd = std::bit_cast<double>(bits);
+  }
+  if (!norm) return encode(e, odd);
+  const auto most = static_cast<double>((std::uint64_t{1} << digits) - 1);
+  const double limited = std::clamp(odd, e.kind == family::snorm ? -most : 0.0, most);
+  return encode(fixed_encoding(40, 0), limited) & low_bits(e.width);
+}
+
+/// The chain of a stored image: each level the exact filtered value of the level below, stored.
+///
+/// Shapes   T: exact<Q>; means of norms are taken in 128-bit integers instead.
+/// Error    one rounding to nearest even a level.
+template <class T>
+std::vector<coded_image> exact_mip_chain(const texel_format& format, coded_image base,
+                                         mip_filter filter) {
+  using certified_detail::int128;
+  filter_model codes;
+  codes.texel = texel_rule::integers;
+  std::vector<coded_image> levels;
+  const int count = mip_levels(base.width, base.height);
+  levels.push_back(std::move(base));
+  for (int level = 1; level < count; ++level) {
+    const coded_image& from = levels.back();
+    coded_image next(std::max(1, from.width / 2), std::max(1, from.height / 2), from.channels);
+    const image<double> values = load_image<double>(codes, format, from);
+    for (int y = 0; y < next.height; ++y) {
+      const mip_taps down = mip_axis(filter, from.height, y);
+      for (int x = 0; x < next.width; ++x) {
+        const mip_taps across = mip_axis(filter, from.width, x);
+        const auto denominator = static_cast<int128>(down.denominator) * across.denominator;
+        for (int c = 0; c < from.channels; ++c) {
+          const encoding& e = format.of[static_cast<std::size_t>(c)];
+          const auto each = [&](auto use) {
+            for (int j = 0; j < down.count; ++j)
+              for (int i = 0; i < across.count; ++i)
+                use(static_cast<std::int64_t>(down.weight[static_cast<std::size_t>(j)]) *
+                        across.weight[static_cast<std::size_t>(i)],
+                    values.at(across.first + i, down.first + j, c));
+          };
+          if (is_norm(e)) {
+            int128 sum = 0;
+            each([&](std::int64_t w, double t) {
+              sum += static_cast<int128>(w) * static_cast<std::int64_t>(t);
+            });
+            const bool negative = sum < 0;
+            const int128 size = negative ? -sum : sum;
+            int128 whole = size / denominator;
+            const int128 twice = 2 * (size % denominator);
+            if (twice > denominator || (twice == denominator && (whole & 1) != 0)) ++whole;
+            const auto code = static_cast<std::uint64_t>(whole);
+            next.at(x, y, c) = (negative ? ~code + 1 : code) & low_bits(e.width);
+          } else {
+            T sum = static_cast<T>(0);
+            each([&](std::int64_t w, double t) {
+              sum = sum + static_cast<T>(static_cast<double>(w)) * static_cast<T>(t);
+            });
+            next.at(x, y, c) =
+                encode_exact(e, sum / static_cast<T>(static_cast<double>(down.denominator)) /
+                                    static_cast<T>(static_cast<double>(across.denominator)));
+          }
+        }
+      }
+    }
+    levels.push_back(std::move(next));
+  }
+  return levels;
+}
+
+}  // namespace bitshade

@@ -1,0 +1,57 @@
+// `bitshade convert`: a texture's texels in another format, as a device stores them.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "command/commands.hpp"
+#include "command/texture_options.hpp"
+#include "io/atomic_file.hpp"
+
+namespace bitshade::command {
+namespace {
+
+struct options {
+  std::string texture, name, format, preset = "exact", out;
+};
+
+void convert(const options& given) {
+  const named_texture texture = read_texture(given.texture, given.name);
+  const named_texture result = in_format(choose_preset(given.preset, {}), texture, given.format);
+  const std::string text = texture_file_text(result);
+  if (given.out.empty())
+    std::cout << text;
+  else
+    write_file(given.out, text);
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app) {
+  auto given = std::make_shared<options>();
+  CLI::App* command = app.add_subcommand(
+      "convert",
+      "Store a texture in another format as a device does\n"
+      "All levels are converted. The answer has the layout of --texture's .csv, raw words.");
+  command->add_option("--texture", given->texture, "Texture: .csv, .png or .exr")
+      ->required()
+      ->option_text("FILE");
+  command->add_option("--name", given->name, "Which texture of a .csv that holds several")
+      ->option_text("NAME");
+  command
+      ->add_option(
+          "--format", given->format,
+          "Format of each channel ('bitshade formats' lists them), or of the texel: RG16_UNORM")
+      ->required()
+      ->option_text("NAME");
+  command
+      ->add_option("--preset", given->preset,
+                   "Whose loads and stores: as for 'bitshade sample'; exact rounds to nearest even")
+      ->capture_default_str();
+  command->add_option("--out", given->out, "File to write instead of standard output")
+      ->option_text("FILE");
+  command->footer("Example:\n  bitshade convert --texture depth.png --format half --preset d3d11");
+  command->callback([given] { convert(*given); });
+}
+
+}  // namespace bitshade::command

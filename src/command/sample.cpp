@@ -1,0 +1,135 @@
+// `bitshade sample`: what a device's sampler returns, number by number.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "bitshade/formats/hexadecimal.hpp"
+#include "command/commands.hpp"
+#include "command/sampling.hpp"
+#include "command/texture_options.hpp"
+#include "io/atomic_file.hpp"
+#include "io/error.hpp"
+#include "io/nearest.hpp"
+
+namespace bitshade::command {
+namespace {
+
+struct options {
+  std::string texture, name, coordinates, format, preset = "exact", wrap = "clamp",
+                                                  filter = "bilinear";
+  int max_anisotropy = 1;
+};
+
+template <class Value, std::size_t N>
+Value choose(const std::string& word, const std::string& option,
+             const std::pair<std::string_view, Value> (&known)[N]) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : known) {
+    if (word == name) return value;
+    names.push_back(name);
+  }
+  throw usage_error(option + ": no '" + word + "'; " + suggest(word, names));
+}
+
+sampler_state state_of(const options& given) {
+  static constexpr std::pair<std::string_view, address> wraps[] = {
+      {"clamp", address::clamp}, {"repeat", address::repeat}, {"mirror", address::mirror}};
+  enum class filter { nearest, bilinear, trilinear };
+  static constexpr std::pair<std::string_view, filter> filters[] = {
+      {"nearest", filter::nearest},
+      {"bilinear", filter::bilinear},
+      {"trilinear", filter::trilinear}};
+  if (given.max_anisotropy < 1 || given.max_anisotropy > 16)
+    throw usage_error("--max-anisotropy must be from 1 to 16");
+  sampler_state state;
+  state.u = state.v = choose(given.wrap, "--wrap", wraps);
+  const filter chosen = choose(given.filter, "--filter", filters);
+  state.linear = chosen != filter::nearest;
+  state.mips = chosen == filter::trilinear ? mip_selection::linear : mip_selection::none;
+  state.max_anisotropy = given.max_anisotropy;
+  if (given.max_anisotropy > 1 && chosen != filter::trilinear)
+    throw usage_error("--max-anisotropy needs --filter trilinear: probes choose their level");
+  return state;
+}
+
+void sample(const options& given) {
+  const sampler_state state = state_of(given);
+  named_texture texture = read_texture(given.texture, given.name);
+  if (!given.format.empty())
+    texture = in_format(choose_preset(given.preset, {}), texture, given.format);
+  const filter_model model = choose_preset(given.preset, texture.format);
+  const std::vector<std::uint8_t> bytes = read_file(given.coordinates);
+  const coordinates where = parse_coordinates(
+      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, given.coordinates);
+  if (state.max_anisotropy > 1 && !where.gradient)
+    throw usage_error(
+        "--max-anisotropy needs coordinates with derivatives: u,v,dudx,dvdx,dudy,dvdy");
+  if (state.mips != mip_selection::none) complete_chain(model, texture);
+
+  const auto sampler = make_texture_sampler(model, texture, state);
+  if (where.named) {
+    static constexpr char letters[] = "rgba";
+    for (int c = 0; c < texture.format.channels; ++c)
+      std::cout << (c == 0 ? "" : ",") << letters[c];
+    std::cout << '\n';
+  }
+  for (const auto& at : where.lookups) {
+    std::string line;
+    for (int c = 0; c < texture.format.channels; ++c) {
+      const float value = where.gradient ? sampler->gradient(at.u, at.v, at.g, c)
+                                         : sampler->lod(at.u, at.v, at.lod, c);
+      line += (c == 0 ? "" : ",") + hexadecimal(static_cast<double>(value));
+    }
+    std::cout << line << '\n';
+  }
+}
+
+}  // namespace
+
+void add_sample(CLI::App& app) {
+  auto given = std::make_shared<options>();
+  CLI::App* command = app.add_subcommand(
+      "sample",
+      "Sample a texture as a device does\n"
+      "Results are C99 hexadecimal binary32, a line a lookup, a column a channel, headed where the "
+      "coordinates are.");
+  command
+      ->add_option("--texture", given->texture,
+                   "Texture: .csv (texture,format,level,width,height,texels), .png or .exr")
+      ->required()
+      ->option_text("FILE");
+  command->add_option("--name", given->name, "Which texture of a .csv that holds several")
+      ->option_text("NAME");
+  command
+      ->add_option("--coords", given->coordinates,
+                   "Lookups: lines of u,v,lod or of u,v,dudx,dvdx,dudy,dvdy")
+      ->required()
+      ->option_text("FILE");
+  command
+      ->add_option("--format", given->format,
+                   "Store the texels in this format first; 'bitshade formats' lists them")
+      ->option_text("NAME");
+  command
+      ->add_option("--preset", given->preset,
+                   "exact, d3d11, vulkan-strict, cuda, llvmpipe, llvmpipe-r8, softpipe or "
+                   "swiftshader; llvmpipe means llvmpipe-r8 for 8-bit unorm, as it does there")
+      ->capture_default_str();
+  command->add_option("--wrap", given->wrap, "clamp, repeat or mirror")->capture_default_str();
+  command
+      ->add_option("--filter", given->filter,
+                   "nearest, bilinear or trilinear; a chain that is missing is made as the "
+                   "preset makes it")
+      ->capture_default_str();
+  command
+      ->add_option("--max-anisotropy", given->max_anisotropy,
+                   "Most probes along a footprint, 1 to 16")
+      ->capture_default_str();
+  command->footer(
+      "Example, a device's own results against a preset:\n"
+      "  bitshade sample --texture textures.csv --name rg16_16 --coords mine.csv \\\n"
+      "                  --preset d3d11 > d3d11.csv");
+  command->callback([given] { sample(*given); });
+}
+
+}  // namespace bitshade::command
