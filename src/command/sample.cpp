@@ -79,7 +79,8 @@ void sample(const options& given) {
     for (int c = 0; c < texture.format.channels; ++c) {
       const float value = where.gradient ? sampler->gradient(at.u, at.v, at.g, c)
                                          : sampler->lod(at.u, at.v, at.lod, c);
-      line += (c == 0 ? "" : ",") + hexadecimal(static_cast<double>(value));
+      if (c > 0) line += ',';
+      line += hexadecimal(static_cast<double>(value));
     }
     std::cout << line << '\n';
   }

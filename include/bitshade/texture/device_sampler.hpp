@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bitshade/texture/presets.hpp"
 #include "bitshade/texture/sampler.hpp"
 #include "bitshade/texture/storage.hpp"
 
@@ -29,14 +30,19 @@ class device_sampler {
         if (format.of[static_cast<std::size_t>(c)] != unorm_encoding(8))
           throw std::invalid_argument("the preset " + std::string(model.name) +
                                       " filters 8-bit unorm channels alone");
+    // llvmpipe's 8-bit way knows clamp and repeat alone, and no anisotropy.
+    const auto simple = [](address a) { return a == address::clamp || a == address::repeat; };
+    if (model.order == accumulation::lerp_codes &&
+        (!simple(state.u) || !simple(state.v) || state.max_anisotropy > 1))
+      model_ = preset_detail::llvmpipe();
     wide_ = model.rounding == intermediate::result;
     if (wide_)
-      wide_chain_ = load_chain<double>(model, format, chain);
+      wide_chain_ = load_chain<double>(model_, format, chain);
     else
-      chain_ = load_chain<float>(model, format, chain);
+      chain_ = load_chain<float>(model_, format, chain);
     // A border is given as a value; where codes are filtered it has to be one.
     for (std::size_t c = 0; c < 4; ++c) {
-      scale_[c] = texel_scale(model, format.of[c]);
+      scale_[c] = texel_scale(model_, format.of[c]);
       if (scale_[c] != 1.0f) state_.border[c] = state_.border[c] / static_cast<double>(scale_[c]);
     }
   }

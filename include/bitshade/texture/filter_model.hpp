@@ -67,6 +67,13 @@ enum class anisotropy_rule : std::uint8_t {
   ewa             ///< the same, the limit honoured
 };
 
+/// How a number becomes the code of a norm.
+enum class norm_store : std::uint8_t {
+  nearest,        ///< the nearest code, ties to even
+  scaled,         ///< fl(x * max) in binary32, then to nearest even
+  scaled_half_up  ///< fl(fl(x * max) + 1/2), rounded toward zero, beyond 8 bits; else scaled
+};
+
 /// How a device samples.
 struct filter_model {
   std::string_view name;
@@ -91,8 +98,9 @@ struct filter_model {
   log2_rule log2 = log2_rule::nearest;
   anisotropy_rule anisotropy = anisotropy_rule::vulkan;
 
-  rules store{};              ///< rounding and overflow of float stores
-  bool scaled_store = false;  ///< norms by fl(x * max) instead of the nearest code
+  rules store{};  ///< rounding and overflow of float stores
+  norm_store norms = norm_store::nearest;
+  bool flush_packed = false;  ///< 10- and 11-bit floats lose their subnormals
   mip_filter mips = mip_filter::centre;
 };
 

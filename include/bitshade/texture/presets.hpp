@@ -80,7 +80,7 @@ constexpr filter_model llvmpipe() {
   m.log2 = log2_rule::mantissa_line;
   m.anisotropy = anisotropy_rule::ewa_unlimited;
   m.store = toward_zero_saturating();
-  m.scaled_store = true;
+  m.norms = norm_store::scaled;
   return m;
 }
 
@@ -106,6 +106,8 @@ constexpr filter_model softpipe() {
   m.rho = rho_rule::max_abs;
   m.log2 = log2_rule::table_256;
   m.anisotropy = anisotropy_rule::ewa;
+  m.norms = norm_store::scaled_half_up;
+  m.flush_packed = true;
   return m;
 }
 
@@ -118,7 +120,7 @@ constexpr filter_model swiftshader() {
   m.repeat = repeat_rule::fraction;
   m.log2 = log2_rule::squared_as_bits;
   m.anisotropy = anisotropy_rule::determinant;
-  m.scaled_store = true;
+  m.norms = norm_store::scaled;
   return m;
 }
 

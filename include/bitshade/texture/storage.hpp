@@ -44,24 +44,40 @@ struct stored_texture {
   std::vector<std::vector<coded_image>> layers;
 };
 
-/// The code of a norm as devices make it: fl(x * max) in binary32, then to the nearest even.
-/// Up to 0.502 codes from x, and the wrong neighbour for about one value in a thousand.
-constexpr std::uint64_t encode_norm_scaled(const encoding& e, float x) {
+/// The code of a norm as devices make it, by norm_store::scaled or scaled_half_up. Up to 0.502
+/// codes from x, and the wrong neighbour for about one value in a thousand.
+constexpr std::uint64_t encode_norm_scaled(const encoding& e, float x, norm_store how) {
   const bool with_sign = e.kind == family::snorm;
   const int digits = with_sign ? e.width - 1 : e.width;
   const auto most = static_cast<float>((std::uint64_t{1} << digits) - 1);
   if (!(x == x)) return 0;
   const float low = with_sign ? -1.0f : 0.0f;
-  const float limited = x < low ? low : x > 1.0f ? 1.0f : x;
-  // A fixed-point number without fraction is an integer: its encoding rounds to the nearest even.
-  const std::uint64_t code = encode(fixed_encoding(40, 0), static_cast<double>(limited * most));
-  return code & ((std::uint64_t{1} << e.width) - 1);
+  const float scaled = (x < low ? low : x > 1.0f ? 1.0f : x) * most;
+  // A fixed-point number without fraction is an integer: its encoding rounds.
+  rules r;
+  double value = static_cast<double>(scaled);
+  if (how == norm_store::scaled_half_up && e.width > 8) {
+    const float half = scaled < 0 ? -0.5f : 0.5f;
+    value = static_cast<double>(scaled + half);
+    r.direction = rounding::toward_zero;
+  }
+  return encode(fixed_encoding(40, 0), value, r) & low_bits(e.width);
+}
+
+/// The code that a model stores for x.
+constexpr std::uint64_t store_value(const filter_model& model, const encoding& e, double x) {
+  if (is_norm(e)) {
+    if (model.norms == norm_store::nearest) return encode(e, x);
+    return encode_norm_scaled(e, static_cast<float>(x), model.norms);
+  }
+  rules r = model.store;
+  if (model.flush_packed && !e.has_sign) r.subnormal = subnormals::flush_output;
+  return encode(e, x, r);
 }
 
 /// Rounds an image into a format.
 ///
-/// Policy   model.store for floats; norms to the nearest code, or by encode_norm_scaled where the
-///          model stores so.
+/// Policy   model.store for floats, model.norms for norms.
 /// Error    one rounding a texel.
 /// Failure  std::invalid_argument where the channel counts differ.
 template <class T>
@@ -71,11 +87,7 @@ coded_image store(const filter_model& model, const texel_format& format, const i
   coded_image out(in.width, in.height, in.channels);
   const auto channels = static_cast<std::size_t>(in.channels);
   for (std::size_t i = 0; i < in.texels.size(); ++i) {
-    const encoding& e = format.of[i % channels];
-    const auto x = static_cast<double>(in.texels[i]);
-    out.texels[i] = is_norm(e) && model.scaled_store
-                        ? encode_norm_scaled(e, static_cast<float>(x))
-                        : encode(e, x, is_norm(e) ? rules{} : model.store);
+    out.texels[i] = store_value(model, format.of[i % channels], static_cast<double>(in.texels[i]));
   }
   return out;
 }
