@@ -1,0 +1,58 @@
+// Multisampling: where the samples lie, and what becomes of them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "bitshade/texture/image.hpp"
+
+namespace bitshade {
+
+/// A sample's place in its pixel, in sixteenths from the pixel's centre.
+struct sample_position {
+  int x = 0, y = 0;
+};
+
+/// The standard patterns of 1, 2, 4 and 8 samples.
+///
+/// Failure  std::invalid_argument for another number.
+/// Source   [D3D11] 19.2.4.1.4, [Vulkan] "Multisampling": standardSampleLocations.
+inline std::span<const sample_position> sample_pattern(int samples) {
+  static constexpr std::array<sample_position, 1> one{{{0, 0}}};
+  static constexpr std::array<sample_position, 2> two{{{4, 4}, {-4, -4}}};
+  static constexpr std::array<sample_position, 4> four{{{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}};
+  static constexpr std::array<sample_position, 8> eight{
+      {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
+  switch (samples) {
+    case 1:
+      return one;
+    case 2:
+      return two;
+    case 4:
+      return four;
+    case 8:
+      return eight;
+    default:
+      throw std::invalid_argument("multisampling knows 1, 2, 4 or 8 samples");
+  }
+}
+
+/// Row y of the resolved image: the mean of all samples, all channels.
+///
+///   ((s_0 + s_1) + s_2 .. ) / n, first to last
+///
+/// Shapes   one image a sample, all of one size; out.size() == row_size().
+/// Policy   sums are T's in that order; the division by a power of two is exact in binary T.
+template <class T>
+void resolve_row(std::span<const image<T>> samples, int y, std::span<T> out) {
+  const T count = static_cast<T>(static_cast<int>(samples.size()));
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    T sum = samples[0].row(y)[i];
+    for (std::size_t s = 1; s < samples.size(); ++s) sum = sum + samples[s].row(y)[i];
+    out[i] = sum / count;
+  }
+}
+
+}  // namespace bitshade
