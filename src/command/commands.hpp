@@ -9,6 +9,7 @@ class App;
 namespace bitshade::command {
 
 // (one declaration a line, in the order of --help)
+void add_study(CLI::App& app);
 void add_depth(CLI::App& app);
 void add_round(CLI::App& app);
 void add_formats(CLI::App& app);

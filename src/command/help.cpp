@@ -52,6 +52,10 @@ class formatter : public CLI::Formatter {
   }
   std::string make_option_desc(const CLI::Option* option) const override {
     std::string text = option->get_description();
+    // One manner for all commands: descriptions begin small, unless with a name.
+    if (text.size() > 1 && text[0] >= 'A' && text[0] <= 'Z' &&
+        ((text[1] >= 'a' && text[1] <= 'z') || text[1] == ' '))
+      text[0] = static_cast<char>(text[0] - 'A' + 'a');
     if (!is_flag(option) && !option->get_default_str().empty())
       text += " [" + option->get_default_str() + "]";
     return text;
@@ -60,6 +64,13 @@ class formatter : public CLI::Formatter {
     // The first sentence suffices in a list.
     const std::string text = sub->get_description();
     return entry(sub->get_name(), split(text, '\n').front(), 12);
+  }
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != std::string::npos;)
+      text.erase(at, 1);
+    return text;
   }
   std::string make_description(const CLI::App* app) const override {
     return app->get_description().empty() ? "" : paragraphs(app->get_description()) + '\n';

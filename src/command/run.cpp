@@ -21,6 +21,7 @@ void declare(CLI::App& app) {
       "everything else to standard error. Exit status: 0 done, 1 it could not be done,\n"
       "2 the arguments make no sense.");
   // (one call a line, in the order of --help)
+  add_study(app);
   add_depth(app);
   add_round(app);
   add_formats(app);

@@ -57,7 +57,14 @@ std::string brief(double value, int digits) {
   auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific,
                            digits - 1)
                  .ptr;
-  if (!plain) return {buffer, end};
+  if (!plain) {
+    // 1.2e-05 is written 1.2e-5: narrow tables have no column to spare.
+    std::string text(buffer, end);
+    if (const std::size_t e = text.find('e'); e + 2 < text.size() && text[e + 2] == '0')
+      text.erase(e + 2, 1);
+    if (const std::size_t plus = text.find('+'); plus != std::string::npos) text.erase(plus, 1);
+    return text;
+  }
   double rounded = 0;  // so that 0.9999 is written as 1.00, not as 1.000
   std::from_chars(buffer, end, rounded);
   int decimals = digits - 1;

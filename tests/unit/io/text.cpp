@@ -20,11 +20,12 @@ TEST_CASE("numbers for people keep their digits and their width", "[io]") {
   CHECK(brief(0) == "0");
   CHECK(brief(0.9999) == "1.00");
   CHECK(brief(0.01234) == "0.0123");
-  CHECK(brief(0.00999949) == "1.00e-02");
-  CHECK(brief(1.5e-5, 2) == "1.5e-05");
+  CHECK(brief(0.00999949) == "1.00e-2");
+  CHECK(brief(1.5e-5, 2) == "1.5e-5");
+  CHECK(brief(2.5e-10, 2) == "2.5e-10");
   CHECK(brief(-12.345) == "-12.3");
   CHECK(brief(123456.0) == "123456");
-  CHECK(brief(1e9, 2) == "1.0e+09");
+  CHECK(brief(1e9, 2) == "1.0e9");
   CHECK(brief(std::numeric_limits<double>::infinity()) == "inf");
 }
 

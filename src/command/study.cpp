@@ -1,0 +1,193 @@
+// `bitshade study`: techniques x formats x layers on a scene, a mesh or a captured depth map.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command/commands.hpp"
+#include "command/scene_options.hpp"
+#include "command/study_options.hpp"
+#include "io/atomic_file.hpp"
+#include "io/build.hpp"
+#include "io/error.hpp"
+#include "io/text.hpp"
+#include "report/folder.hpp"
+#include "report/summary.hpp"
+#include "run/study.hpp"
+#include "scene/limits.hpp"
+
+namespace bitshade::command {
+namespace {
+
+struct options {
+  std::vector<std::string> scenes;
+  std::shared_ptr<scene_options> scene;
+  std::shared_ptr<study_options> cells;
+  std::string out = "bitshade-out";
+  bool verify_plan = false, json = false;
+  std::string arguments;         ///< as given, but for the scenes
+  std::string shared_arguments;  ///< those without the lists, which a single cell does not share
+};
+
+/// Refuses what the run would need before the machine runs out of it: exact arithmetic holds each
+/// moment of a texel in 16 bytes, twice while it is blurred.
+void check_memory_for(const frame& input, const std::vector<configuration>& cells) {
+  std::uint64_t channels = 1;
+  for (const configuration& c : cells)
+    channels = std::max(channels, static_cast<std::uint64_t>(c.channels()));
+  const auto w = static_cast<std::uint64_t>(input.depth.width);
+  const auto h = static_cast<std::uint64_t>(input.depth.height);
+  check_memory(w * h * channels * 32,
+               "a study of a map of " + std::to_string(w) + " x " + std::to_string(h) + " texels",
+               "ask for a smaller --size");
+}
+
+/// What heads the input in reports: sizes, and where its depths lie.
+std::string describe(const frame& input) {
+  constexpr std::size_t bins = 128;
+  std::vector<int> occluders(bins), receivers(bins);
+  const auto bin = [](double depth) {
+    return std::min(bins - 1, static_cast<std::size_t>(depth * static_cast<double>(bins)));
+  };
+  std::size_t drawn = 0, seen = 0;
+  for (const float d : input.depth.texels)
+    if (d < 1) ++drawn, ++occluders[bin(static_cast<double>(d))];
+  for (const receiver& r : input.receivers)
+    if (r.surface != 0)
+      ++seen, ++receivers[bin(std::min(1.0, std::max(0.0, static_cast<double>(r.t))))];
+  const std::string map =
+      std::to_string(input.depth.width) + "x" + std::to_string(input.depth.height);
+  const std::string view =
+      std::to_string(input.view_width) + "x" + std::to_string(input.view_height);
+  return nlohmann::ordered_json{
+      {"map", {input.depth.width, input.depth.height}},
+      {"view", {input.view_width, input.view_height}},
+      {"summary", "Depth map " + map + ", " + std::to_string(drawn) + " texels drawn; view " +
+                      view + ", " + std::to_string(seen) + " receivers."},
+      {"occluder_histogram", occluders},
+      {"receiver_histogram", receivers}}
+      .dump();
+}
+
+void print(const report_section& s, const study_result& result, bool verified) {
+  std::cout << s.input.name << ": "
+            << nlohmann::json::parse(s.input.description)["summary"].get<std::string>() << "\n\n"
+            << text_tables(s.rows) << '\n'
+            << text_effects(s.rows) << '\n';
+  if (verified) {
+    double planned = 0, everything = 0;
+    for (const verification& v : result.verified)
+      planned += v.planned_seconds, everything += v.everything_seconds;
+    std::cout << "Plan verified: " << result.verified.size() << " of " << result.rows.size()
+              << " cells give the same bits with every effect simulated.\nThe plan took "
+              << brief(planned) << " s, everything " << brief(everything)
+              << " s: " << brief(everything - planned) << " s saved.\n\n";
+  }
+  for (const std::string& f : findings(s.rows))
+    for (const std::string& text : wrap(f, 80)) std::cout << text << '\n';
+  std::cout << '\n';
+}
+
+void study(const options& given) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<configuration> cells = given.cells->cells();
+  std::vector<frame> frames;
+  std::string command = "bitshade study";
+  for (const std::string& name : given.scenes) {
+    frames.push_back(load_input(name, *given.scene));
+    check_memory_for(frames.back(), cells);
+    command += " " + shell_quoted(name);
+  }
+  command += given.arguments;
+
+  // Only now, with nothing left that the arguments could get wrong, is anything written.
+  const std::filesystem::path folder = given.out;
+  make_output_folder(folder);
+  sweep_leftovers(folder);
+  database results(folder / "results.sqlite");
+  const report_head head{command, program_version(), compiler_description(), machine_description()};
+  std::vector<report_section> sections;
+  progress bar;
+  bar.begin(frames.size() * cells.size());
+  std::size_t computed = 0;
+  std::vector<study_result> done;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::string description = describe(frames[i]);
+    done.push_back(run_study(
+        frames[i], {cells, description, given.scene->threads, given.verify_plan}, results, bar));
+    const study_result& result = done.back();
+    computed += result.computed;
+    report_section s{{result.input, given.scenes[i], description},
+                     result.rows,
+                     results.pictures(result.input),
+                     {},
+                     {},
+                     "bitshade study " + shell_quoted(given.scenes[i]) + given.arguments};
+    for (const row& r : result.rows) {
+      s.cells[r.key] = results.pictures(r.key);
+      s.commands[r.key] = "bitshade render " + shell_quoted(given.scenes[i]) +
+                          given.shared_arguments + " --technique " + r.technique +
+                          (r.technique == "lvsm" ? " --layers " + std::to_string(r.layers) : "") +
+                          " --format " + r.format;
+    }
+    sections.push_back(std::move(s));
+  }
+  bar.end();
+  write_results(folder, head, sections);
+
+  if (given.json) {
+    std::cout << results_json(head, sections).dump(1) << '\n';
+    return;
+  }
+  for (std::size_t i = 0; i < sections.size(); ++i) print(sections[i], done[i], given.verify_plan);
+  const std::size_t all = frames.size() * cells.size();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::cout << computed << " of " << all << " cells computed in " << brief(seconds) << " s";
+  if (computed < all) std::cout << ", " << all - computed << " taken from results.sqlite";
+  std::cout << ".\nThe report is " << (folder / "report.html").string()
+            << "; pictures, CSV, JSON and the database lie beside it.\n";
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  auto given = std::make_shared<options>();
+  CLI::App* command = app.add_subcommand(
+      "study",
+      "The main job: techniques x formats x layers on a scene\n"
+      "Runs every technique in every format and layer count on a scene, a mesh or a captured depth "
+      "map, and says what each costs in error and in time: a table here; results.sqlite, CSV, "
+      "JSON, "
+      "pictures and report.html in the folder of --out. A run that was stopped goes on where it "
+      "was.");
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "SCENE", [given](const std::vector<std::string>& names) { given->scenes = names; },
+          scene_argument_help())
+      ->default_str("garden");
+  given->cells = add_study_options(*command, {});
+  given->scene = add_scene_options(*command);
+  command->add_option("--out", given->out, "Folder for the results")
+      ->capture_default_str()
+      ->option_text("DIR");
+  command->add_flag("--verify-plan", given->verify_plan,
+                    "Run every effect as well, and demand the same bits");
+  command->add_flag("--json", given->json, "Print JSON instead of tables");
+  command->footer(
+      "Examples:\n"
+      "  bitshade study garden --layers 1,2,4 --formats unorm16,half,binary32,exact\n"
+      "  bitshade study garden --splits 0.94 --overlap 0 --min-variance 1e-7\n"
+      "  bitshade study model.obj depth.exr --size 2048 --out results");
+  command->callback([given, command] {
+    if (given->scenes.empty()) given->scenes.push_back("garden");
+    given->arguments = arguments_of(*command, {"json", "verify-plan", "threads", "out"});
+    given->shared_arguments = arguments_of(
+        *command, {"json", "verify-plan", "threads", "out", "techniques", "formats", "layers"});
+    study(*given);
+  });
+}
+
+}  // namespace bitshade::command

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "io/text.hpp"
+#include "report/summary.hpp"
+
+namespace bitshade {
+namespace {
+
+/// "LVSM with 2 layers in unorm16".
+std::string name_of(const row& r) {
+  std::string technique;
+  for (const char c : r.technique)
+    technique += c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  if (r.technique == "hard") technique = "The hard test";
+  if (r.technique != "lvsm") return technique + " in " + r.format;
+  return technique + " with " + std::to_string(r.layers) +
+         (r.layers == 1 ? " layer in " : " layers in ") + r.format;
+}
+
+/// The error that an 8-bit display cannot show.
+bool invisible(const row& r) { return r.figures.format.largest <= tolerated_error; }
+
+std::string share(double value) { return percent(value) + " %"; }
+
+const row* find(std::span<const row> rows, const std::string& technique, int layers,
+                const std::string& format) {
+  for (const row& r : rows)
+    if (r.technique == technique && r.layers == layers && r.format == format) return &r;
+  return nullptr;
+}
+
+/// The cheapest row whose format error no 8-bit display shows.
+std::string cheapest(std::span<const row> rows) {
+  const row* best = nullptr;
+  for (const row& r : rows) {
+    if (r.bytes_per_texel == 0 || !invisible(r)) continue;
+    if (best == nullptr || r.bytes_per_texel < best->bytes_per_texel ||
+        (r.bytes_per_texel == best->bytes_per_texel &&
+         r.figures.total.rmse < best->figures.total.rmse))
+      best = &r;
+  }
+  if (best == nullptr) {
+    const row* least = nullptr;
+    for (const row& r : rows)
+      if (r.bytes_per_texel != 0 &&
+          (least == nullptr || r.figures.format.largest < least->figures.format.largest))
+        least = &r;
+    if (least == nullptr) return "";
+    return "No stored format here keeps its own error under one step of an 8-bit display (1/255) "
+           "at "
+           "every pixel; " +
+           name_of(*least) + " comes nearest, with at most " +
+           brief(least->figures.format.largest) + ".";
+  }
+  return "The cheapest format whose own error no 8-bit display shows (under 1/255 at every "
+         "pixel): " +
+         name_of(*best) + ", " + std::to_string(best->bytes_per_texel) +
+         " bytes a texel, at most " + brief(best->figures.format.largest) + " off.";
+}
+
+/// Layered rows against the single-layer VSM in binary32: the paper's own comparison (C14).
+std::vector<std::string> against_binary32(std::span<const row> rows) {
+  const row* vsm = find(rows, "vsm", 1, "binary32");
+  std::vector<std::string> out;
+  if (vsm == nullptr) return out;
+  for (const row& r : rows) {
+    if (r.technique != "lvsm" || r.layers < 2 || r.bytes_per_texel == 0 ||
+        r.bytes_per_texel > vsm->bytes_per_texel)
+      continue;
+    const double ours = r.figures.format.p999, theirs = vsm->figures.format.p999;
+    out.push_back("In " + std::to_string(r.bytes_per_texel) + " bytes a texel, " + name_of(r) +
+                  " has a format error of at most " + brief(ours) + " at 99.9 % of the pixels; " +
+                  name_of(*vsm) + " has " + brief(theirs) + " in " +
+                  std::to_string(vsm->bytes_per_texel) + ".");
+  }
+  return out;
+}
+
+std::string bleeding(std::span<const row> rows) {
+  const auto better = [](const row& a, const row& b) {
+    return a.figures.bleed_area < b.figures.bleed_area;
+  };
+  const auto [least, most] = std::minmax_element(rows.begin(), rows.end(), better);
+  if (most->figures.bleed_area == 0) return "No configuration bleeds.";
+  std::string out = name_of(*most) + " bleeds most, over " + share(most->figures.bleed_area) +
+                    " of the receivers";
+  out += least->figures.bleed_area == most->figures.bleed_area
+             ? "; no configuration bleeds less."
+             : "; " + name_of(*least) + " bleeds least, over " +
+                   (least->figures.bleed_area == 0 ? std::string("none")
+                                                   : share(least->figures.bleed_area)) +
+                   ".";
+  return out;
+}
+
+std::string acne(std::span<const row> rows) {
+  const row* worst = nullptr;
+  for (const row& r : rows)
+    if (worst == nullptr || r.figures.acne_area > worst->figures.acne_area) worst = &r;
+  if (worst->figures.acne_area == 0)
+    return "No configuration shows acne: every lit receiver stays lit.";
+  return name_of(*worst) + " shows the most acne: " + share(worst->figures.acne_area) +
+         " of the receivers are lit in truth and darker by more than 1/255.";
+}
+
+/// Where the format, not the method, is what a user would see.
+std::string who_is_to_blame(std::span<const row> rows) {
+  std::vector<std::string> formats;
+  int stored = 0;
+  for (const row& r : rows) {
+    if (r.bytes_per_texel == 0) continue;
+    ++stored;
+    if (r.figures.format.rmse > r.figures.method.rmse) formats.push_back(name_of(r));
+  }
+  if (stored == 0) return "";
+  if (formats.empty())
+    return "In all " + std::to_string(stored) +
+           " stored configurations the method's error exceeds the format's: a wider format would "
+           "change less than another technique.";
+  std::string list;
+  for (std::size_t i = 0; i < formats.size() && i < 3; ++i) list += (i ? ", " : "") + formats[i];
+  if (formats.size() > 3) list += " and " + std::to_string(formats.size() - 3) + " more";
+  return "The format costs more than the method (by RMSE) in " + std::to_string(formats.size()) +
+         " of " + std::to_string(stored) + " stored configurations: " + list + ".";
+}
+
+}  // namespace
+
+std::vector<std::string> findings(std::span<const row> rows) {
+  std::vector<std::string> out;
+  if (rows.empty()) return out;
+  const auto add = [&](std::string sentence) {
+    if (!sentence.empty()) out.push_back(std::move(sentence));
+  };
+  add(cheapest(rows));
+  add(bleeding(rows));
+  add(acne(rows));
+  for (std::string& s : against_binary32(rows)) add(std::move(s));
+  add(who_is_to_blame(rows));
+  return out;
+}
+
+}  // namespace bitshade

@@ -1,0 +1,34 @@
+// report.html: one file that needs nothing else.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "run/database.hpp"
+
+namespace bitshade {
+
+/// One input of a study with everything that is shown of it.
+struct report_section {
+  input_description input;
+  std::vector<row> rows;
+  picture_files pictures;                       ///< of the input: truth, shaded, depth
+  std::map<std::string, picture_files> cells;   ///< of the cells, by key
+  std::map<std::string, std::string> commands;  ///< that reproduce a cell's pictures, by key
+  std::string command;                          ///< that reproduces the figures
+};
+
+/// What heads a report.
+struct report_head {
+  std::string command;  ///< as the user typed it
+  std::string version;
+  std::string compiler;
+  std::string machine;
+};
+
+/// A page with a summary in words, tables, plots and pictures; light and dark, for screens of any
+/// width and for paper. The same arguments give the same bytes.
+std::string html_report(const report_head& head, const std::vector<report_section>& sections);
+
+}  // namespace bitshade

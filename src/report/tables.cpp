@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <set>
+
+#include "io/text.hpp"
+#include "report/summary.hpp"
+
+namespace bitshade {
+namespace {
+
+using line = std::vector<std::string>;
+
+/// Columns as wide as their widest entry, `words` to the left and numbers to the right; two blanks
+/// between them, or one where two would not fit a page of 80.
+std::string table(const std::vector<line>& lines, const std::set<std::size_t>& words) {
+  std::vector<std::size_t> widths(lines.front().size(), 0);
+  for (const line& l : lines)
+    for (std::size_t i = 0; i < l.size(); ++i) widths[i] = std::max(widths[i], columns(l[i]));
+  std::size_t width = 0;
+  for (const std::size_t w : widths) width += w;
+  const std::size_t gap = width + 2 * (widths.size() - 1) > 80 ? 1 : 2;
+  std::string out;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    std::string text;
+    for (std::size_t i = 0; i < lines[n].size(); ++i) {
+      if (i != 0) text.append(gap, ' ');
+      text +=
+          words.contains(i) ? pad_right(lines[n][i], widths[i]) : pad_left(lines[n][i], widths[i]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    out += text + '\n';
+    if (n == 0) out += std::string(width + gap * (widths.size() - 1), '-') + '\n';
+  }
+  return out;
+}
+
+std::string layers_of(const row& r) {
+  return r.technique == "lvsm" ? std::to_string(r.layers) : "-";
+}
+
+std::string milliseconds(double seconds) { return brief(seconds * 1e3, 3); }
+
+}  // namespace
+
+std::string text_tables(std::span<const row> rows) {
+  if (rows.empty()) return "";
+  std::vector<line> methods{{"name", "N", "rmse", "largest", "p99.9", "mean", "vs pcf"}};
+  std::set<std::string> seen;
+  for (const row& r : rows) {
+    if (!seen.insert(r.technique + " " + std::to_string(r.layers)).second) continue;
+    const measures& m = r.figures;
+    methods.push_back({r.technique, layers_of(r), brief(m.method.rmse), brief(m.method.largest),
+                       brief(m.method.p999), brief(m.method.signed_mean),
+                       brief(m.method_pcf.rmse)});
+  }
+  std::string out =
+      "Method error: the technique in exact arithmetic against the geometric truth\n" +
+      table(methods, {0}) + '\n';
+
+  std::vector<line> formats{{"name", "N", "format", "rmse", "largest", "p99.9", "bleed%", "acne%",
+                             "B/tx", "ms/map", "ns"}};
+  for (const row& r : rows) {
+    const measures& m = r.figures;
+    const bool exact = r.format == "exact";
+    formats.push_back({r.technique, layers_of(r), r.format, exact ? "0" : brief(m.format.rmse, 2),
+                       exact ? "0" : brief(m.format.largest, 2),
+                       exact ? "0" : brief(m.format.p999, 2), percent(m.bleed_area),
+                       percent(m.acne_area),
+                       r.bytes_per_texel == 0 ? "-" : std::to_string(r.bytes_per_texel),
+                       milliseconds(r.map_seconds), brief(r.nanoseconds_per_sample(), 3)});
+  }
+  out += "Format error: the technique in the format against itself in exact arithmetic\n" +
+         table(formats, {0, 2});
+  out +=
+      "\nbleed%, acne%: share of receivers that should be dark and are not, or lit and\n"
+      "are not, by more than 1/255. B/tx: bytes per texel, all layers. ns: per sample.\n"
+      "Times are native arithmetic; those of exact are the exact arithmetic's own.\n";
+  return out;
+}
+
+std::vector<effect_summary> effects_of(std::span<const row> rows) {
+  std::vector<effect_summary> all;
+  for (const row& r : rows)
+    for (const effect& e : r.effects) {
+      const auto same = std::find_if(all.begin(), all.end(), [&](const effect_summary& s) {
+        return s.name == e.name && s.evidence == e.evidence && s.needed == e.simulated();
+      });
+      const std::string label =
+          r.technique + (r.technique == "lvsm" ? " " + layers_of(r) : "") + " " + r.format;
+      if (same == all.end())
+        all.push_back({e.name, e.simulated(), {label}, e.evidence});
+      else if (std::find(same->by.begin(), same->by.end(), label) == same->by.end())
+        same->by.push_back(label);
+    }
+  std::stable_sort(all.begin(), all.end(), [&](const effect_summary& a, const effect_summary& b) {
+    const auto first = [&](const std::string& name) {
+      return std::find_if(all.begin(), all.end(),
+                          [&](const effect_summary& s) { return s.name == name; }) -
+             all.begin();
+    };
+    return a.name != b.name && first(a.name) < first(b.name);
+  });
+  return all;
+}
+
+std::string text_effects(std::span<const row> rows) {
+  std::string out = "Effects: what this scene calls for, and what was left out\n";
+  std::string before;
+  for (const effect_summary& e : effects_of(rows)) {
+    const std::string name = e.name == before ? "" : e.name;
+    before = e.name;
+    std::string who = e.by.size() == rows.size() ? ""
+                      : e.by.size() > 3          ? std::to_string(e.by.size()) + " configurations"
+                                                 : "";
+    if (e.by.size() != rows.size() && e.by.size() <= 3)
+      for (const std::string& label : e.by) who += (who.empty() ? "" : ", ") + label;
+    const std::string head = "  " + pad_right(name, 12) + (e.needed ? " yes  " : " no   ");
+    std::size_t n = 0;
+    for (const std::string& text :
+         wrap(e.evidence + (who.empty() ? "" : " (" + who + ")"), 80 - columns(head)))
+      out += (n++ == 0 ? head : std::string(columns(head), ' ')) + text + '\n';
+  }
+  return out;
+}
+
+}  // namespace bitshade
