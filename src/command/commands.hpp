@@ -10,6 +10,8 @@ namespace bitshade::command {
 
 // (one declaration a line, in the order of --help)
 void add_study(CLI::App& app);
+void add_render(CLI::App& app);
+void add_plan(CLI::App& app);
 void add_depth(CLI::App& app);
 void add_round(CLI::App& app);
 void add_formats(CLI::App& app);

@@ -16,7 +16,6 @@
 #include "report/folder.hpp"
 #include "report/summary.hpp"
 #include "run/study.hpp"
-#include "scene/limits.hpp"
 
 namespace bitshade::command {
 namespace {
@@ -30,19 +29,6 @@ struct options {
   std::string arguments;         ///< as given, but for the scenes
   std::string shared_arguments;  ///< those without the lists, which a single cell does not share
 };
-
-/// Refuses what the run would need before the machine runs out of it: exact arithmetic holds each
-/// moment of a texel in 16 bytes, twice while it is blurred.
-void check_memory_for(const frame& input, const std::vector<configuration>& cells) {
-  std::uint64_t channels = 1;
-  for (const configuration& c : cells)
-    channels = std::max(channels, static_cast<std::uint64_t>(c.channels()));
-  const auto w = static_cast<std::uint64_t>(input.depth.width);
-  const auto h = static_cast<std::uint64_t>(input.depth.height);
-  check_memory(w * h * channels * 32,
-               "a study of a map of " + std::to_string(w) + " x " + std::to_string(h) + " texels",
-               "ask for a smaller --size");
-}
 
 /// What heads the input in reports: sizes, and where its depths lie.
 std::string describe(const frame& input) {
@@ -97,7 +83,7 @@ void study(const options& given) {
   std::string command = "bitshade study";
   for (const std::string& name : given.scenes) {
     frames.push_back(load_input(name, *given.scene));
-    check_memory_for(frames.back(), cells);
+    check_study_memory(frames.back(), cells);
     command += " " + shell_quoted(name);
   }
   command += given.arguments;

@@ -91,13 +91,12 @@ std::vector<effect_summary> effects_of(std::span<const row> rows) {
       else if (std::find(same->by.begin(), same->by.end(), label) == same->by.end())
         same->by.push_back(label);
     }
+  std::vector<std::string> order;  // as the plan names them
+  for (const effect_summary& e : all)
+    if (std::find(order.begin(), order.end(), e.name) == order.end()) order.push_back(e.name);
   std::stable_sort(all.begin(), all.end(), [&](const effect_summary& a, const effect_summary& b) {
-    const auto first = [&](const std::string& name) {
-      return std::find_if(all.begin(), all.end(),
-                          [&](const effect_summary& s) { return s.name == name; }) -
-             all.begin();
-    };
-    return a.name != b.name && first(a.name) < first(b.name);
+    return std::find(order.begin(), order.end(), a.name) <
+           std::find(order.begin(), order.end(), b.name);
   });
   return all;
 }
@@ -113,7 +112,7 @@ std::string text_effects(std::span<const row> rows) {
                                                  : "";
     if (e.by.size() != rows.size() && e.by.size() <= 3)
       for (const std::string& label : e.by) who += (who.empty() ? "" : ", ") + label;
-    const std::string head = "  " + pad_right(name, 12) + (e.needed ? " yes  " : " no   ");
+    const std::string head = "  " + pad_right(name, 23) + (e.needed ? " yes  " : " no   ");
     std::size_t n = 0;
     for (const std::string& text :
          wrap(e.evidence + (who.empty() ? "" : " (" + who + ")"), 80 - columns(head)))

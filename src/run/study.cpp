@@ -10,6 +10,7 @@
 #include "io/text.hpp"
 #include "report/maps.hpp"
 #include "run/pipeline.hpp"
+#include "scene/limits.hpp"
 
 namespace bitshade {
 namespace {
@@ -136,6 +137,18 @@ std::string cell_key(const std::string& input, const configuration& c) {
   return d.finish().substr(0, 32);
 }
 
+void check_study_memory(const frame& input, const std::vector<configuration>& cells) {
+  // Exact arithmetic holds each moment of a texel in 16 bytes, twice while it is blurred.
+  std::uint64_t channels = 1;
+  for (const configuration& c : cells)
+    channels = std::max(channels, static_cast<std::uint64_t>(c.channels()));
+  const auto w = static_cast<std::uint64_t>(input.depth.width);
+  const auto h = static_cast<std::uint64_t>(input.depth.height);
+  check_memory(w * h * channels * 32,
+               "a study of a map of " + std::to_string(w) + " x " + std::to_string(h) + " texels",
+               "ask for a smaller --size");
+}
+
 study_result run_study(const frame& input, const study_request& request, database& results,
                        progress& bar) {
   study_result result;
@@ -157,7 +170,7 @@ study_result run_study(const frame& input, const study_request& request, databas
     }
     if (!described) {
       results.store_input({result.input, input.name, request.description},
-                    input_pictures(input, known, c));
+                          input_pictures(input, known, c));
       described = true;
     }
     const plan effects = make_plan(input, c, request.threads);

@@ -45,6 +45,10 @@ std::string label_of(const row& r);
 /// The identity of a cell: input, configuration and program.
 std::string cell_key(const std::string& input, const configuration& c);
 
+/// Refuses a study that would need more memory than the machine has, before it starts.
+/// Failure  usage_error with what it would take, and the cure.
+void check_study_memory(const frame& input, const std::vector<configuration>& cells);
+
 /// Runs the cells that the database lacks and commits each at once. References (truths, exact
 /// arithmetic) are computed only for groups with a missing cell.
 ///

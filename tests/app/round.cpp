@@ -22,7 +22,8 @@ outcome round_text(const std::string& input, const std::string& options) {
   std::string path = (std::filesystem::temp_directory_path() / "bitshade_round_XXXXXX").string();
   ::close(::mkstemp(path.data()));
   std::ofstream(path, std::ios::binary) << input;
-  const std::string line = std::string(BITSHADE_COMMAND) + " round " + options + " < " + path + " 2>&1";
+  const std::string line =
+      std::string(BITSHADE_COMMAND) + " round " + options + " < " + path + " 2>&1";
   outcome result;
   std::FILE* pipe = ::popen(line.c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -40,7 +41,8 @@ TEST_CASE("round answers each line with its value and bits") {
   const outcome half = round_text("0.1\n1/3\n0x1.8p+1\n-inf\nnan\n-0\n", "--format half");
   CHECK(half.status == 0);
   CHECK(half.out ==
-        "0x1.998p-4 0x2e66\n0x1.554p-2 0x3555\n0x1.8p+1 0x4200\n-inf 0xfc00\nnan 0x7e00\n-0x0p+0 0x8000\n");
+        "0x1.998p-4 0x2e66\n0x1.554p-2 0x3555\n0x1.8p+1 0x4200\n-inf 0xfc00\nnan 0x7e00\n-0x0p+0 "
+        "0x8000\n");
   // The nearest binary64 of 1/65535 is not 1/65535; the ratio is, and no direction may move it.
   for (const char* direction : {"up", "down", "to-odd", "toward-zero"})
     CHECK(round_text("1/65535", std::string("--format unorm16 --rounding ") + direction).out ==
@@ -54,8 +56,10 @@ TEST_CASE("round judges overflow on the value rounded without a limit") {
         "0x1.ffcp+15 0x7bff\n0x1.ffcp+15 0x7bff\n-inf 0xfc00\n");
   CHECK(round_text(input, "--format half --rounding toward-zero --overflow infinity").out ==
         "0x1.ffcp+15 0x7bff\n0x1.ffcp+15 0x7bff\n-inf 0xfc00\n");
-  CHECK(round_text("inf\n449\n-465\n", "--format fp8_e4m3").out == "nan 0x7f\n0x1.cp+8 0x7e\n-nan 0xff\n");
-  CHECK(round_text("inf\n-465\n", "--format fp8_e4m3 --overflow saturate").out == "0x1.cp+8 0x7e\n-0x1.cp+8 0xfe\n");
+  CHECK(round_text("inf\n449\n-465\n", "--format fp8_e4m3").out ==
+        "nan 0x7f\n0x1.cp+8 0x7e\n-nan 0xff\n");
+  CHECK(round_text("inf\n-465\n", "--format fp8_e4m3 --overflow saturate").out ==
+        "0x1.cp+8 0x7e\n-0x1.cp+8 0xfe\n");
 }
 
 TEST_CASE("round flushes what is subnormal after rounding, and only that") {
@@ -73,14 +77,16 @@ TEST_CASE("round reads r11g11b10 three numbers a line") {
 
 TEST_CASE("stochastic rounding replays from its seed") {
   std::string input;
-  for (int i = 0; i < 4000; ++i) input += "0x1.004p+0\n";  // 1/256 of a step up: about 16 of the 4000
+  for (int i = 0; i < 4000; ++i)
+    input += "0x1.004p+0\n";  // 1/256 of a step up: about 16 of the 4000
   const outcome a = round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 7");
   CHECK(a.out == round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 7").out);
   CHECK(a.out != round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 8").out);
 }
 
 TEST_CASE("round names the line that it cannot read") {
-  for (const char* bad : {"abc", "", "1/0", "0x", "1e", "1..2", "--1", "1 2", "inf/2", "0x1p", "nan(1)"}) {
+  for (const char* bad :
+       {"abc", "", "1/0", "0x", "1e", "1..2", "--1", "1 2", "inf/2", "0x1p", "nan(1)"}) {
     INFO("line: '" << bad << "'");
     const outcome r = round_text("1\n" + std::string(bad) + "\n2\n", "--format half");
     CHECK(r.status == 1);

@@ -1,0 +1,140 @@
+// `bitshade render`: one configuration of a scene as pictures.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command/commands.hpp"
+#include "command/scene_options.hpp"
+#include "command/study_options.hpp"
+#include "io/atomic_file.hpp"
+#include "io/error.hpp"
+#include "io/text.hpp"
+#include "report/folder.hpp"
+#include "report/maps.hpp"
+#include "run/pipeline.hpp"
+#include "run/study.hpp"
+
+namespace bitshade::command {
+namespace {
+
+struct options {
+  std::string scene = "garden";
+  std::shared_ptr<scene_options> how;
+  std::shared_ptr<study_options> cell;
+  std::string out = "bitshade-out";
+  bool json = false;
+};
+
+struct named_picture {
+  std::string name, meaning;
+  picture content;
+};
+
+std::vector<double> without_gaps(std::vector<double> values) {
+  for (double& v : values)
+    if (v != v) v = 1;
+  return values;
+}
+
+void render(const options& given) {
+  const std::vector<configuration> cells = given.cell->cells();
+  if (cells.size() != 1)
+    throw usage_error("render draws one configuration, but these options name " +
+                      std::to_string(cells.size()) +
+                      ": give one technique, one format and one layer count, or use study");
+  const configuration& c = cells.front();
+  const frame input = load_input(given.scene, *given.how);
+  const int threads = given.how->threads, w = input.view_width, h = input.view_height;
+  check_study_memory(input, cells);
+
+  configuration twin = c, kernel = c;
+  twin.format = "exact";
+  kernel.method = technique::pcf;
+  const cell exact = run_pipeline(input, twin, make_plan(input, twin, threads), threads);
+  const cell done =
+      c.exact() ? exact : run_pipeline(input, c, make_plan(input, c, threads), threads);
+  const std::vector<double> geometric = truth_geometric(input, kernel, threads);
+  const std::vector<double> pcf = truth_pcf(input, kernel, threads);
+  const measures m =
+      measure(input, {done.visibility, exact.visibility, geometric, pcf, done.layer});
+
+  const auto seen = without_gaps(done.visibility), truth = without_gaps(geometric);
+  std::vector<named_picture> pictures;
+  pictures.push_back({"shaded", "the scene with this shadow", shaded_map(input, seen)});
+  pictures.push_back(
+      {"visibility", "black: no light, white: all of it", visibility_map(seen, w, h)});
+  pictures.push_back(
+      {"layers", "a colour a layer, darkened by the shadow", layer_map(input, seen, done.layer)});
+  pictures.push_back({"error", "against the geometric truth", error_map(seen, truth, w, h)});
+  if (!c.exact())
+    pictures.push_back({"format-error", "against itself in exact arithmetic",
+                        error_map(seen, without_gaps(exact.visibility), w, h)});
+
+  const std::filesystem::path folder = given.out;
+  make_output_folder(folder);
+  const std::string layers = c.method == technique::lvsm ? std::to_string(c.layers) : "";
+  const std::string stem =
+      file_stem(given.scene) + "-" + std::string(name_of(c.method)) + layers + "-" + c.format + "-";
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  std::string list;
+  for (const named_picture& p : pictures) {
+    const std::string path = (folder / (stem + p.name + ".png")).string();
+    write_file(path, encode_png(p.content));
+    files[p.name] = path;
+    list += "  " + path + "  (" + p.meaning + ")\n";
+  }
+  if (given.json) {
+    std::cout << nlohmann::ordered_json{{"scene", given.scene},
+                                        {"configuration", c.key()},
+                                        {"files", files},
+                                        {"splits", done.splits},
+                                        {"format_error_rmse", m.format.rmse},
+                                        {"format_error_largest", m.format.largest},
+                                        {"total_error_rmse", m.total.rmse},
+                                        {"bleed_area", m.bleed_area},
+                                        {"acne_area", m.acne_area}}
+                     .dump(1)
+              << '\n';
+    return;
+  }
+  std::cout << label_of(c) << ": format error " << brief(m.format.rmse) << " RMSE, at most "
+            << brief(m.format.largest) << "; bleeds over " << percent(m.bleed_area)
+            << " %, acne over " << percent(m.acne_area) << " % of the receivers\n";
+  if (done.splits.size() > 2) {
+    std::cout << "splits:";
+    for (const double s : done.splits) std::cout << ' ' << brief(s, 5);
+    std::cout << '\n';
+  }
+  std::cout << list;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto given = std::make_shared<options>();
+  CLI::App* command = app.add_subcommand(
+      "render",
+      "One configuration as pictures: shading, visibility, layers, error maps\n"
+      "Draws one technique in one format: the shaded scene, the visibility, the layers in colours "
+      "and the error against the truth and against exact arithmetic, as PNG files.");
+  command->add_option("SCENE", given->scene, scene_argument_help())->capture_default_str();
+  study_options initial;
+  initial.techniques = "lvsm";
+  initial.formats = "unorm16";
+  initial.layers = "2";
+  given->cell = add_study_options(*command, initial);
+  given->how = add_scene_options(*command);
+  command->add_option("--out", given->out, "Folder for the pictures")
+      ->capture_default_str()
+      ->option_text("DIR");
+  command->add_flag("--json", given->json, "Print JSON instead of text");
+  command->footer(
+      "Examples:\n"
+      "  bitshade render garden --technique vsm --format half\n"
+      "  bitshade render garden --layers 2 --splits 0.94 --overlap 0 --min-variance 1e-7");
+  command->callback([given] { render(*given); });
+}
+
+}  // namespace bitshade::command
