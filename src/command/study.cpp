@@ -166,7 +166,8 @@ void add_study(CLI::App& app) {
       "Examples:\n"
       "  bitshade study garden --layers 1,2,4 --formats unorm16,half,binary32,exact\n"
       "  bitshade study garden --splits 0.94 --overlap 0 --min-variance 1e-7\n"
-      "  bitshade study model.obj depth.exr --size 2048 --out results");
+      "  bitshade study model.obj --size 2048 --light 0.3,-1,0.2 --out results\n"
+      "  bitshade study captured.exr");
   command->callback([given, command] {
     if (given->scenes.empty()) given->scenes.push_back("garden");
     given->arguments = arguments_of(*command, {"json", "verify-plan", "threads", "out"});

@@ -173,6 +173,23 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
       ->capture_default_str()
       ->option_text("N")
       ->group(group);
+  app.add_option_function<std::string>(
+         "--second-moment",
+         [c](const std::string& name) {
+           const auto at = std::find(second_moment_names.begin(), second_moment_names.end(), name);
+           if (at == second_moment_names.end())
+             throw usage_error("--second-moment: there is no '" + name + "'; " +
+                               suggest(name, second_moment_names));
+           c->second = static_cast<second_moment>(at - second_moment_names.begin());
+         },
+         "square, square-of-stored or centred: what stands beside the depth")
+      ->default_str(std::string(second_moment_names[static_cast<std::size_t>(c->second)]))
+      ->option_text("NAME")
+      ->group(group);
+  app.add_flag("--noise-floor", c->noise_floor, "Never a floor under what the format's noise needs")
+      ->group(group);
+  app.add_flag("--slope-term", c->slope_term, "Receiver-slope term of the second moment")
+      ->group(group);
   app.add_flag("--transition", c->transition, "Blend two layers across their overlap")
       ->group(group);
   app.add_flag("--every-layer", c->every_layer, "Minimum over the layers, not the receiver's own")

@@ -79,10 +79,11 @@ std::vector<std::string> against_binary32(std::span<const row> rows) {
 }
 
 std::string bleeding(std::span<const row> rows) {
-  const auto better = [](const row& a, const row& b) {
-    return a.figures.bleed_area < b.figures.bleed_area;
-  };
-  const auto [least, most] = std::minmax_element(rows.begin(), rows.end(), better);
+  const row *least = &rows[0], *most = &rows[0];
+  for (const row& r : rows) {
+    if (r.figures.bleed_area < least->figures.bleed_area) least = &r;
+    if (r.figures.bleed_area > most->figures.bleed_area) most = &r;
+  }
   if (most->figures.bleed_area == 0) return "No configuration bleeds.";
   std::string out = name_of(*most) + " bleeds most, over " + share(most->figures.bleed_area) +
                     " of the receivers";

@@ -15,6 +15,7 @@ namespace {
 constexpr const char* probe = R"js(<script>
 window.addEventListener('load', () => {
   const found = {errors: window.bitshadeErrors};
+  found.loads = [...document.images].every(i => i.complete && i.naturalWidth > 0);
   const table = document.querySelector('table.sorts');
   const column = 3, button = table.tHead.rows[0].cells[column].querySelector('button');
   const values = () => [...table.tBodies[0].rows].map(r => Number(r.cells[column].dataset.value));
@@ -32,7 +33,6 @@ window.addEventListener('load', () => {
   choice.selectedIndex = choice.options.length - 1; choice.dispatchEvent(new Event('change'));
   found.changed = compare.querySelector('img.b').src !== before;
   const kind = figure.querySelector('select[name=kind]');
-  found.loads = [...document.images].every(i => i.complete && i.naturalWidth > 0);
   kind.value = 'error'; kind.dispatchEvent(new Event('change'));
   found.error = compare.querySelector('img.b').alt;
   found.plots = document.querySelectorAll('svg').length;
