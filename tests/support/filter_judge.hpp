@@ -41,7 +41,8 @@ inline range texel_range(float u, int size, const search_precision& p) {
 /// searched in steps that move no channel by more than half the threshold.
 inline bool search_accepts(const image<double>& in, float u, float v, address mode,
                            const std::vector<double>& got, const search_precision& p) {
-  const auto xs = judge_detail::texel_range(u, in.width, p), ys = judge_detail::texel_range(v, in.height, p);
+  const auto xs = judge_detail::texel_range(u, in.width, p),
+             ys = judge_detail::texel_range(v, in.height, p);
   const auto first = [](double x) { return static_cast<int>(std::floor(x)); };
   for (int j = first(ys.low); j <= first(ys.high); ++j)
     for (int i = first(xs.low); i <= first(xs.high); ++i) {
@@ -96,7 +97,8 @@ inline bool strict_accepts(const image<double>& in, float u, float v, address mo
   const auto floor_int = [](double x) { return static_cast<int>(std::floor(x)); };
   const auto points = [&](const judge_detail::range& r, int base, auto use) {
     const int from = std::max(floor_int(r.low * grid), base << p.grid_bits);
-    const int to = std::min(static_cast<int>(std::ceil(r.high * grid)), (base << p.grid_bits) + (1 << p.grid_bits) - 1);
+    const int to = std::min(static_cast<int>(std::ceil(r.high * grid)),
+                            (base << p.grid_bits) + (1 << p.grid_bits) - 1);
     for (int k = from; k <= to; ++k) use((k - (base << p.grid_bits)) / grid);
   };
   bool accepted = false;
@@ -111,7 +113,8 @@ inline bool strict_accepts(const image<double>& in, float u, float v, address mo
             const double value = (1 - fy) * ((1 - fx) * in.at(x0, y0, c) + fx * in.at(x1, y0, c)) +
                                  fy * ((1 - fx) * in.at(x0, y1, c) + fx * in.at(x1, y1, c));
             // Texels one step off, and three lerps rounded at the result's precision.
-            const double slack = p.step + 3 * std::ldexp(std::max(std::fabs(value), p.step), -p.result_bits);
+            const double slack =
+                p.step + 3 * std::ldexp(std::max(std::fabs(value), p.step), -p.result_bits);
             all = all && std::fabs(got[static_cast<std::size_t>(c)] - value) <= slack;
           }
           accepted = accepted || all;

@@ -74,7 +74,8 @@ std::vector<vector_file> read_vectors(const std::filesystem::path& folder) {
   return result;
 }
 
-std::vector<std::pair<std::string, std::string>> print_vectors(const std::vector<vector_file>& files) {
+std::vector<std::pair<std::string, std::string>> print_vectors(
+    const std::vector<vector_file>& files) {
   std::string index = "file,texture,kind,wrap,mipmap_linear,max_anisotropy,rows\n";
   std::string textures = "texture,format,level,width,height,texels_hex_row_major\n";
   std::set<std::string> printed;
@@ -83,7 +84,8 @@ std::vector<std::pair<std::string, std::string>> print_vectors(const std::vector
     index += f.file + ',' + f.texture.name + ',' + f.kind + ',' +
              (f.state.u == address::repeat ? "repeat" : "clamp_to_edge") + ',' +
              (f.state.mips == mip_selection::linear ? '1' : '0') + ',' +
-             std::to_string(f.state.max_anisotropy) + ',' + std::to_string(f.where.lookups.size()) + '\n';
+             std::to_string(f.state.max_anisotropy) + ',' + std::to_string(f.where.lookups.size()) +
+             '\n';
     if (printed.insert(f.texture.name).second) textures += print_texture(f.texture);
     std::string text = f.where.gradient ? "u,v,dudx,dvdx,dudy,dvdy" : "u,v,lod";
     const auto channels = static_cast<std::size_t>(f.texture.format.channels);
@@ -93,8 +95,10 @@ std::vector<std::pair<std::string, std::string>> print_vectors(const std::vector
     for (std::size_t row = 0; row < f.where.lookups.size(); ++row) {
       const auto& at = f.where.lookups[row];
       std::vector<double> numbers{at.u, at.v};
-      if (f.where.gradient) numbers.insert(numbers.end(), {at.g.du_dx, at.g.dv_dx, at.g.du_dy, at.g.dv_dy});
-      else numbers.push_back(at.lod);
+      if (f.where.gradient)
+        numbers.insert(numbers.end(), {at.g.du_dx, at.g.dv_dx, at.g.du_dy, at.g.dv_dy});
+      else
+        numbers.push_back(at.lod);
       for (const auto& r : f.results)
         for (std::size_t c = 0; c < channels; ++c) numbers.push_back(r[row * channels + c]);
       for (std::size_t i = 0; i < numbers.size(); ++i) {

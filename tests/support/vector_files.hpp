@@ -25,6 +25,7 @@ struct vector_file {
 std::vector<vector_file> read_vectors(const std::filesystem::path& folder);
 
 /// The folder's files as text, by name: index.csv, textures.csv and one for each of `files`.
-std::vector<std::pair<std::string, std::string>> print_vectors(const std::vector<vector_file>& files);
+std::vector<std::pair<std::string, std::string>> print_vectors(
+    const std::vector<vector_file>& files);
 
 }  // namespace bitshade::test

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -234,10 +235,16 @@ summed_area<W> make_modular_sat(const image<std::uint64_t>& codes, int bits) {
   return make_sat(std::move(in), sat_order::running, sat_offset::none, [](std::span<W>) {});
 }
 
-/// Whether the sums of an image with values up to `largest` stay below the largest finite value of
-/// a store; where not, box means are wrong everywhere behind the place where it saturates.
-inline bool sat_fits(int width, int height, double largest, double store_max) {
-  return static_cast<double>(width) * static_cast<double>(height) * largest <= store_max;
+/// Refuses a table whose sums may pass the largest finite value of its store: box means would be
+/// wrong everywhere behind the place where it saturates.
+///
+/// Units    largest: of the texels, offset taken away; store_max: of the store's format.
+/// Failure  std::invalid_argument that says what would fit.
+inline void require_sat_fits(int width, int height, double largest, double store_max) {
+  if (static_cast<double>(width) * static_cast<double>(height) * largest <= store_max) return;
+  throw std::invalid_argument(
+      "a summed-area table of " + std::to_string(width) + " x " + std::to_string(height) +
+      " texels saturates its format; use binary32 or uint32 sums, or subtract the mean");
 }
 
 }  // namespace bitshade

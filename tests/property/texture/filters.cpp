@@ -6,8 +6,8 @@
 
 #include "bitshade/interop/rational.hpp"
 #include "bitshade/texture/blur.hpp"
-#include "bitshade/texture/exact_sampler.hpp"
 #include "bitshade/texture/device_sampler.hpp"
+#include "bitshade/texture/exact_sampler.hpp"
 #include "bitshade/texture/sat.hpp"
 #include "support/catch.hpp"
 
@@ -15,10 +15,14 @@ using namespace bitshade;
 
 namespace {
 
-const filter_model& any_model() { return presets[static_cast<std::size_t>(*rc::gen::inRange(0, 8))]; }
+const filter_model& any_model() {
+  return presets[static_cast<std::size_t>(*rc::gen::inRange(0, 8))];
+}
 address any_address() { return static_cast<address>(*rc::gen::inRange(0, 3)); }
 int any_size() { return *rc::gen::inRange(1, 20); }
-float any_coordinate() { return static_cast<float>(*rc::gen::inRange(-(1 << 24), 1 << 25)) * 0x1p-24f; }
+float any_coordinate() {
+  return static_cast<float>(*rc::gen::inRange(-(1 << 24), 1 << 25)) * 0x1p-24f;
+}
 
 texel_format format_for(const filter_model& m) {
   const bool bytes = m.order == accumulation::lerp_codes;
@@ -51,12 +55,14 @@ TEST_CASE("constants stay constant in every preset, for every lookup") {
     const int w = any_size(), h = any_size();
     const auto code = static_cast<std::uint64_t>(*rc::gen::inRange(0, 1 << format.of[0].width));
     std::vector<coded_image> chain;
-    for (int l = 0; l < mip_levels(w, h); ++l) chain.emplace_back(mip_size(w, l), mip_size(h, l), 1, code);
+    for (int l = 0; l < mip_levels(w, h); ++l)
+      chain.emplace_back(mip_size(w, l), mip_size(h, l), 1, code);
     sampler_state state;
     state.u = state.v = any_address();
     state.mips = mip_selection::linear;
     const device_sampler sampler(m, format, chain, state);
-    const float expected = static_cast<float>(load(m, format.of[0], code)) * texel_scale(m, format.of[0]);
+    const float expected =
+        static_cast<float>(load(m, format.of[0], code)) * texel_scale(m, format.of[0]);
     const auto lambda = static_cast<float>(*rc::gen::inRange(-64, 400)) / 64;
     RC_ASSERT(sampler.lod(any_coordinate(), any_coordinate(), lambda, 0) == expected);
   }));
@@ -79,7 +85,10 @@ TEST_CASE("anisotropic constants deviate by the weights' sum alone, a few ulp") 
     const float got = sampler.gradient(any_coordinate(), any_coordinate(), {d(), d(), d(), d()}, 0);
     // Up to 16 weights fl(1/n), 16 products and 16 sums: 48 half ulps of at most 1; an ellipse of
     // EWA adds up hundreds of texels, sums and products of one sign: 2^-16.
-    RC_ASSERT(std::fabs(static_cast<double>(got) - expected) <= (m.name == "llvmpipe" || m.name == "llvmpipe-r8" || m.name == "softpipe" ? 0x1p-16 : 48 * 0x1p-24));
+    RC_ASSERT(std::fabs(static_cast<double>(got) - expected) <=
+              (m.name == "llvmpipe" || m.name == "llvmpipe-r8" || m.name == "softpipe"
+                   ? 0x1p-16
+                   : 48 * 0x1p-24));
   }));
 }
 
@@ -96,7 +105,8 @@ TEST_CASE("results lie within the texels' range") {
     // Weights of 8 bits cannot reach 1, so that the specification's own presets never leave it.
     const double slack = m.grid_bits > 0 && m.order == accumulation::lerp_mul_add ? 0 : range_slack;
     const auto value = [&](std::uint64_t c) {
-      return load(m, format.of[0], c) * static_cast<double>(texel_scale(m, format.of[0]));
+      const auto texel = static_cast<float>(load(m, format.of[0], c));
+      return static_cast<double>(texel * texel_scale(m, format.of[0]));
     };
     RC_ASSERT(got >= value(*low) - slack);
     RC_ASSERT(got <= value(*high) + slack);
@@ -109,7 +119,8 @@ TEST_CASE("mirroring the image and the coordinate changes nothing in exact arith
     const texel_format format = uniform_format(unorm_encoding(16), 1);
     sampler_state state;
     state.u = state.v = any_address();
-    const exact_sampler<exact_rational> here(format, {codes}, state), there(format, {mirrored(codes)}, state);
+    const exact_sampler<exact_rational> here(format, {codes}, state),
+        there(format, {mirrored(codes)}, state);
     const float u = any_coordinate(), v = any_coordinate();
     const float mirror = 1 - u;
     RC_PRE(1 - mirror == u);  // the reflection itself must not round
@@ -129,8 +140,10 @@ TEST_CASE("exact equals the closed form of bilinear filtering, and its own ratio
     const std::int64_t sum = (256 - i) * (256 - j) * t(0, 0) + i * (256 - j) * t(1, 0) +
                              (256 - i) * j * t(0, 1) + i * j * t(1, 1);
     const exact_rational closed = exact_rational(sum) / exact_rational(std::int64_t{65536} * 65535);
-    RC_ASSERT(sampler.lod<float>(u, v, 0, 0) == (certified_detail::nearest_of<float, exact_rational>(closed)));
-    RC_ASSERT(sampler.lod<double>(u, v, 0, 0) == (certified_detail::nearest_of<double, exact_rational>(closed)));
+    RC_ASSERT(sampler.lod<float>(u, v, 0, 0) ==
+              (certified_detail::nearest_of<float, exact_rational>(closed)));
+    RC_ASSERT(sampler.lod<double>(u, v, 0, 0) ==
+              (certified_detail::nearest_of<double, exact_rational>(closed)));
   }));
 }
 
@@ -148,9 +161,11 @@ TEST_CASE("exact trilinear and anisotropic lookups equal rationals bit for bit")
     const auto d = [] { return *rc::gen::inRange(-4096, 4096) * 0x1p-14; };
     const gradients g{d(), d(), d(), d()};
     const probe_set probes = vulkan_probes(g, 8, 8, state.max_anisotropy);
-    RC_ASSERT(sampler.gradient(u, v, g, 0) == sampler.rational<float>(probes, u, v, probes.lambda, 0));
+    RC_ASSERT(sampler.gradient(u, v, g, 0) ==
+              sampler.rational<float>(probes, u, v, probes.lambda, 0));
     const float lambda = static_cast<float>(*rc::gen::inRange(-100, 500)) / 100;
-    RC_ASSERT(sampler.lod(u, v, lambda, 0) == (sampler.rational<float>({0, {{0, 0}}}, u, v, lambda, 0)));
+    RC_ASSERT(sampler.lod(u, v, lambda, 0) ==
+              (sampler.rational<float>({0, {{0, 0}}}, u, v, lambda, 0)));
   }));
 }
 
@@ -169,7 +184,8 @@ TEST_CASE("one sampler, other numbers: exact filtering with a device's weights")
     sampler_state state;
     state.u = state.v = any_address();
     const double a = sample_level<double>(m, wide, u, v, state, 0);
-    const exact_rational b = sample_level<exact_rational>(m, exact, exact_rational(u), exact_rational(v), state, 0);
+    const exact_rational b =
+        sample_level<exact_rational>(m, exact, exact_rational(u), exact_rational(v), state, 0);
     RC_ASSERT(exact_rational(a) == b);
   }));
 }

@@ -124,8 +124,8 @@ TEST_CASE("modular tables wrap and stay exact; what does not fit is refused") {
     }
   CHECK(wrapped);
   CHECK_THROWS(make_modular_sat<std::uint32_t>(codes, 16));
-  CHECK_FALSE(sat_fits(4096, 4096, 1, 65504));
-  CHECK(sat_fits(128, 128, 1, 65504));
+  CHECK_THROWS(require_sat_fits(4096, 4096, 1, 65504));
+  CHECK_NOTHROW(require_sat_fits(128, 128, 1, 65504));
 }
 
 TEST_CASE("resolves are means; patterns are the standard ones and centred in Latin squares") {
