@@ -111,7 +111,7 @@ stored_depths decode(std::span<const std::uint8_t> bytes, const std::string& nam
   // Up to 256 lines or a row of tiles are decoded at a time: a header of a few bytes must not ask
   // for gigabytes.
   const std::uint64_t lines = header.hasTileDescription() ? header.tileDescription().ySize : 256;
-  if (static_cast<std::uint64_t>(width) * texel_bytes * lines > (std::uint64_t{1} << 31)) {
+  if (static_cast<std::uint64_t>(width) * texel_bytes * lines > (std::uint64_t{1} << 29)) {
     throw failure("cannot read " + name + ": " + std::to_string(names.size()) + " channels of " +
                   std::to_string(width) + " columns are too many; write the depth alone");
   }

@@ -1,4 +1,4 @@
-// Meshes through assimp: triangles, facets that share a plane, a ground, a light and a camera.
+// Meshes through assimp: vertices and triangles.
 #include <assimp/config.h>
 #include <assimp/mesh.h>
 #include <assimp/postprocess.h>
@@ -7,44 +7,72 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
+#include <cstring>
 #include <new>
-#include <numeric>
-#include <unordered_map>
 
-#include "io/atomic_file.hpp"
 #include "io/error.hpp"
-#include "io/numbers.hpp"
-#include "io/text.hpp"
-#include "scene/builder.hpp"
-#include "scene/light.hpp"
+#include "scene/isolated.hpp"
 #include "scene/mesh.hpp"
 
 namespace bitshade {
 namespace {
 
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return ending;
+/// A .glb says how long it is; one that was cut off must not reach the importer.
+void check_length(std::span<const std::uint8_t> bytes, const std::string& name) {
+  if (bytes.size() < 20 || !std::equal(bytes.begin(), bytes.begin() + 4, "glTF")) {
+    throw failure("cannot read " + name +
+                  ": it is not a binary glTF file; check that its ending is right");
+  }
+  std::uint32_t length = 0;
+  for (std::size_t i = 0; i < 4; ++i) length |= std::uint32_t{bytes[8 + i]} << (8 * i);
+  if (length > bytes.size()) {
+    throw failure("cannot read " + name + ": it ends after " + std::to_string(bytes.size()) +
+                  " of " + std::to_string(length) + " bytes; write it again");
+  }
 }
 
-/// Copies the triangles and refuses vertices that are no numbers.
-void copy_triangles(const aiScene& from, scene& to, const std::string& name) {
+/// The importer takes some words that are no numbers for 0: find them in the .obj's vertices first.
+void check_numbers(std::span<const std::uint8_t> bytes, const std::string& name) {
+  std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  for (std::size_t line = 1; !rest.empty(); ++line) {
+    std::string_view text = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(rest.size(), text.size() + 1));
+    if (text.size() < 2 || text[0] != 'v' || !blank(text[1])) continue;
+    text.remove_prefix(1);
+    while (!text.empty()) {
+      while (!text.empty() && blank(text[0])) text.remove_prefix(1);
+      const std::string_view word(text.data(),
+                                  std::find_if(text.begin(), text.end(), blank) - text.begin());
+      text.remove_prefix(word.size());
+      if (word.empty() || word == "\\") continue;  // a backslash continues the line
+      const std::size_t sign = word[0] == '-' || word[0] == '+';
+      const bool digit =
+          word.size() > sign && ((word[sign] >= '0' && word[sign] <= '9') || word[sign] == '.');
+      if (!digit) {
+        throw failure("cannot use " + name + ": its line " + std::to_string(line) +
+                      " has a vertex with '" + std::string(word.substr(0, 20)) +
+                      "', which is not finite or no number; mend the mesh");
+      }
+    }
+  }
+}
+
+/// Vertices and triangles of everything in the file, with vertices that are no numbers refused.
+std::vector<std::uint8_t> pack(const aiScene& from, const std::string& name) {
+  std::vector<glm::vec3> vertices;
+  std::vector<glm::uvec3> triangles;
   for (unsigned m = 0; m < from.mNumMeshes; ++m) {
     const aiMesh& mesh = *from.mMeshes[m];
-    const auto first = static_cast<std::uint32_t>(to.vertices.size());
+    const auto first = static_cast<std::uint32_t>(vertices.size());
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
       if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) ||
           std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > 1e15f) {
-        throw failure("cannot use " + name + ": its vertex " + std::to_string(to.vertices.size()) +
+        throw failure("cannot use " + name + ": its vertex " + std::to_string(vertices.size()) +
                       " is not finite, or beyond 1e15; mend the mesh");
       }
-      to.vertices.emplace_back(v.x, v.y, v.z);
+      vertices.emplace_back(v.x, v.y, v.z);
     }
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
@@ -57,116 +85,39 @@ void copy_triangles(const aiScene& from, scene& to, const std::string& name) {
         }
         t[k] = first + face.mIndices[k];
       }
-      to.triangles.push_back(t);
+      triangles.push_back(t);
     }
   }
+  const std::uint64_t counts[2] = {vertices.size(), triangles.size()};
+  const std::size_t corner_bytes = vertices.size() * sizeof(glm::vec3);
+  const std::size_t index_bytes = triangles.size() * sizeof(glm::uvec3);
+  std::vector<std::uint8_t> out(sizeof counts + corner_bytes + index_bytes);
+  std::memcpy(out.data(), counts, sizeof counts);
+  if (corner_bytes > 0) std::memcpy(&out[sizeof counts], vertices.data(), corner_bytes);
+  if (index_bytes > 0)
+    std::memcpy(&out[sizeof counts + corner_bytes], triangles.data(), index_bytes);
+  return out;
 }
 
-/// Numbers the facets: neighbours across an edge that lie in one plane are one surface.
-void number_surfaces(scene& s) {
-  const std::size_t count = s.triangles.size();
-  std::vector<std::uint32_t> parent(count);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
-  const auto corner = [&](std::uint32_t t, int k) {
-    return glm::dvec3(s.vertices[s.triangles[t][k]]);
-  };
-  const auto coplanar = [&](std::uint32_t one, std::uint32_t other) {
-    const glm::dvec3 a = corner(one, 0);
-    const glm::dvec3 n = glm::cross(corner(one, 1) - a, corner(one, 2) - a);
-    const double area = glm::length(n);
-    if (!(area > 0)) return false;
-    const double size = std::sqrt(area);
-    for (int k = 0; k < 3; ++k) {
-      if (std::abs(glm::dot(n, corner(other, k) - a)) > 1e-6 * area * size) return false;
-    }
-    return true;
-  };
-  std::unordered_map<std::uint64_t, std::uint32_t> edges;  // from an edge to a triangle that has it
-  edges.reserve(count * 2);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = s.triangles[t][k], b = s.triangles[t][(k + 1) % 3];
-      const auto [found, fresh] = edges.emplace(std::min(a, b) << 32 | std::max(a, b), t);
-      if (!fresh && coplanar(found->second, t)) parent[root(t)] = root(found->second);
-    }
-  }
-  std::unordered_map<std::uint32_t, std::uint32_t> numbers;
-  s.surfaces.resize(count);
-  for (std::uint32_t t = 0; t < count; ++t) {
-    s.surfaces[t] =
-        numbers.emplace(root(t), static_cast<std::uint32_t>(numbers.size()) + 1).first->second;
-  }
-}
-
-/// A ground under the mesh, wide enough for the shadow of the default light, and a camera that sees
-/// both.
-void stage(scene& s, bool with_ground) {
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const auto& v : s.vertices) {
-    low = glm::min(low, glm::dvec3(v));
-    high = glm::max(high, glm::dvec3(v));
-  }
-  const glm::dvec3 centre = (low + high) / 2.0, size = high - low;
-  const double extent = std::max({size.x, size.y, size.z});
-  if (!(extent > 0))
-    throw failure("cannot use " + s.name + ": all its vertices are one point; mend the mesh");
-  const glm::dvec3 light(0.45, -1, -0.35);
-  if (with_ground) {
-    // A disc, since a square's corners would waste map and range; it follows the shadow.
-    const double radius = 0.6 * std::sqrt(size.x * size.x + size.z * size.z) + 0.5 * size.y;
-    add_disc(s, {centre.x + 0.4 * light.x * size.y, low.y, centre.z + 0.4 * light.z * size.y},
-             radius, 64);
-  }
-  aim_directional_light(s, light);
-  const double away = 0.5 * glm::length(size) * 3.4;
-  s.camera.target = centre - glm::dvec3(0, 0.12 * size.y, 0);
-  s.camera.eye = s.camera.target + glm::normalize(glm::dvec3(0.55, 0.6, 1)) * away;
-  s.camera.field_of_view = 36;
-}
-
-bool ground_wanted(const scene_options& options) {
-  bool ground = true;
-  for (const auto& [name, text] : options.parameters) {
-    if (name != "ground") {
-      throw usage_error("a mesh has no parameter '" + name + "': known is ground (0 or 1)");
-    }
-    const double value = parse_numbers(text, "--param ground", 1, 1)[0];
-    if (value != 0 && value != 1) throw usage_error("--param ground takes 0 or 1, but not " + text);
-    ground = value == 1;
-  }
-  return ground;
-}
-
-}  // namespace
-
-bool is_mesh_file(const std::filesystem::path& path) {
-  const std::string ending = lower_ending(path);
-  return ending == ".obj" || ending == ".glb";
-}
-
-scene decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name,
-                  const std::string& ending) {
+scene unpack(std::span<const std::uint8_t> bytes) {
+  std::uint64_t counts[2];
+  std::memcpy(counts, bytes.data(), sizeof counts);
   scene out;
-  out.name = name;
+  if (counts[1] == 0) return out;  // no triangles: the vertices are of no use
+  out.vertices.resize(counts[0]);
+  out.triangles.resize(counts[1]);
+  const std::uint8_t* const data = bytes.data() + sizeof counts;
+  const std::size_t corner_bytes = out.vertices.size() * sizeof(glm::vec3);
+  std::memcpy(out.vertices.data(), data, corner_bytes);
+  std::memcpy(out.triangles.data(), data + corner_bytes, out.triangles.size() * sizeof(glm::uvec3));
+  return out;
+}
+
+std::vector<std::uint8_t> import_triangles(std::span<const std::uint8_t> bytes,
+                                           const std::string& name, const std::string& ending) {
   const auto refuse = [&](const std::string& why) {
     return failure("cannot read " + name + ": " + why);
   };
-  // A .glb says how long it is; one that was cut off must not reach the importer.
-  if (ending == "glb") {
-    if (bytes.size() < 20 || !std::equal(bytes.begin(), bytes.begin() + 4, "glTF")) {
-      throw refuse("it is not a binary glTF file; check that its ending is right");
-    }
-    const std::uint32_t length =
-        bytes[8] | bytes[9] << 8 | bytes[10] << 16 | static_cast<std::uint32_t>(bytes[11]) << 24;
-    if (length > bytes.size()) {
-      throw refuse("it ends after " + std::to_string(bytes.size()) + " of " +
-                   std::to_string(length) + " bytes; write it again");
-    }
-  }
   try {
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
@@ -183,12 +134,11 @@ scene decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name,
         aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
             aiProcess_PreTransformVertices | aiProcess_SortByPType,
         ending.c_str());
-    if (!read) {
-      const std::string why = importer.GetErrorString();
-      throw refuse((why.empty() ? "it is not a mesh" : why.substr(0, why.find('\n'))) +
-                   "; check that its ending is right, or export it again");
-    }
-    copy_triangles(*read, out, name);
+    if (read) return pack(*read, name);
+    std::string why = importer.GetErrorString();
+    why = why.substr(0, why.find('\n'));
+    throw refuse((why.empty() ? "it is not a mesh" : why) +
+                 "; check that its ending is right, or export it again");
   } catch (const failure&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -196,16 +146,30 @@ scene decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name,
   } catch (const std::exception& e) {
     throw refuse(std::string(e.what()) + "; export it again");
   }
-  if (out.triangles.empty()) throw refuse("it has no triangles; export its faces, too");
-  return out;
 }
 
-scene load_mesh(const std::filesystem::path& file, const scene_options& options) {
-  const bool ground = ground_wanted(options);
-  scene out = decode_mesh(read_file(file), file.string(), lower_ending(file).substr(1));
-  number_surfaces(out);
-  stage(out, ground);
-  out.name = file.stem().string();
+}  // namespace
+
+scene decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name,
+                  const std::string& ending) {
+  const auto refuse = [&](const std::string& why) {
+    return failure("cannot read " + name + ": " + why);
+  };
+  if (ending == "glb") {
+    check_length(bytes, name);
+  } else {
+    check_numbers(bytes, name);
+  }
+  // assimp 5.2 reads beyond its buffers on some malformed files (docs/input.md): let it die alone.
+  const isolated_result result =
+      run_isolated([&] { return import_triangles(bytes, name, ending); }, 600);
+  if (result.crashed) {
+    throw refuse("it is so malformed that the importer crashed; export it again");
+  }
+  if (!result.error.empty()) throw failure(result.error);
+  scene out = unpack(result.bytes);
+  out.name = name;
+  if (out.triangles.empty()) throw refuse("it has no triangles; export its faces, too");
   return out;
 }
 

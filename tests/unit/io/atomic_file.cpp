@@ -8,6 +8,7 @@
 
 #include "io/error.hpp"
 #include "support/catch.hpp"
+#include "support/refusals.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace {
@@ -23,15 +24,6 @@ std::string text_of(const std::filesystem::path& path) {
 
 auto entries(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), {});
-}
-
-std::string message_of(auto&& action) {
-  try {
-    action();
-  } catch (const failure& e) {
-    return e.what();
-  }
-  return "no failure";
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "io/error.hpp"
 #include "io/png.hpp"
 #include "support/catch.hpp"
+#include "support/refusals.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace bitshade;
@@ -32,21 +33,6 @@ image<float> ramp(int width, int height) {
     out.texels[i] = static_cast<float>(i) / static_cast<float>(out.texels.size());
   }
   return out;
-}
-
-std::string message_of(auto&& action) {
-  try {
-    action();
-  } catch (const failure& e) {
-    return e.what();
-  } catch (const usage_error& e) {
-    return std::string("usage: ") + e.what();
-  }
-  return "no exception";
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }

@@ -5,6 +5,7 @@
 #include "io/error.hpp"
 #include "scene/scene.hpp"
 #include "support/catch.hpp"
+#include "support/refusals.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace bitshade;
@@ -13,21 +14,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
-
-std::string message_of(auto&& action) {
-  try {
-    action();
-  } catch (const failure& e) {
-    return e.what();
-  } catch (const usage_error& e) {
-    return std::string("usage: ") + e.what();
-  }
-  return "no exception";
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 struct capture {
   temporary_folder folder;

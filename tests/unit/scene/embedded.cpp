@@ -5,6 +5,7 @@
 #include "io/error.hpp"
 #include "scene/scene.hpp"
 #include "support/catch.hpp"
+#include "support/refusals.hpp"
 
 using namespace bitshade;
 
@@ -26,16 +27,7 @@ std::ptrdiff_t texels_between(const frame& f, float low, float high) {
 }
 
 std::string refusal(const std::string& name, const scene_options& options) {
-  try {
-    load_input(name, options);
-  } catch (const usage_error& e) {
-    return e.what();
-  }
-  return "no usage_error";
-}
-
-bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+  return message_of([&] { load_input(name, options); });
 }
 
 }  // namespace
