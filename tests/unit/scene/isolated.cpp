@@ -2,6 +2,7 @@
 
 #include <signal.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "support/catch.hpp"
@@ -31,17 +32,22 @@ TEST_CASE("isolated work's exceptions come back as text") {
 }
 
 TEST_CASE("isolated work that crashes, exits or never ends is only a result") {
-  using work = std::vector<std::uint8_t> (*)();
-  for (const work w : {work([]() -> std::vector<std::uint8_t> {
-                         ::raise(SIGSEGV);
-                         return {1};
-                       }),
-                       work([]() -> std::vector<std::uint8_t> { std::_Exit(0); }),
-                       work([]() -> std::vector<std::uint8_t> {
-                         for (volatile bool forever = true; forever;) {
-                         }
-                       })}) {
-    const auto result = run_isolated(w, 1);
+  using bytes = std::vector<std::uint8_t>;
+  const std::function<bytes()> bad[] = {[] {
+                                          ::raise(SIGSEGV);
+                                          return bytes{1};
+                                        },
+                                        [] {
+                                          std::_Exit(0);
+                                          return bytes{1};
+                                        },
+                                        [] {
+                                          for (volatile bool forever = true; forever;) {
+                                          }
+                                          return bytes{1};
+                                        }};
+  for (const auto& work : bad) {
+    const auto result = run_isolated(work, 1);
     CHECK(result.crashed);
     CHECK(result.bytes.empty());
   }
