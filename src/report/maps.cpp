@@ -16,7 +16,7 @@ std::uint8_t grey(double v) {
 rgb surface_colour(std::uint32_t surface) {
   static constexpr std::array<rgb, 5> colours{
       {{214, 207, 194}, {176, 196, 184}, {196, 178, 166}, {170, 184, 204}, {206, 196, 158}}};
-  return surface == 0 ? rgb{168, 186, 206} : colours[(surface - 1) % colours.size()];
+  return colours[surface % colours.size()];
 }
 
 void legend_into(picture& p, int top) {
@@ -83,9 +83,11 @@ picture shaded_map(const frame& input, std::span<const double> visibility) {
   picture p(input.view_width, input.view_height, 3);
   for (std::size_t i = 0; i < input.receivers.size(); ++i) {
     const receiver& r = input.receivers[i];
-    const rgb colour = surface_colour(r.surface);
-    const double light =
-        r.surface == 0 ? 1 : 0.22 + 0.78 * static_cast<double>(r.diffuse) * visibility[i];
+    // Without a receiver: sky, a side that faces away, or a point outside the map, which is lit.
+    const bool sky = r.surface == 0 && r.diffuse == 1;
+    const double seen = r.surface == 0 ? 1 : visibility[i];
+    const rgb colour = sky ? rgb{168, 186, 206} : surface_colour(r.surface);
+    const double light = sky ? 1 : 0.22 + 0.78 * static_cast<double>(r.diffuse) * seen;
     for (std::size_t k = 0; k < 3; ++k) p.bytes[3 * i + k] = grey(colour[k] / 255.0 * light);
   }
   return p;

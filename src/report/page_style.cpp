@@ -94,7 +94,7 @@ dl.effects dt { font-weight: 600; } dl.effects dd { margin: 0; }
 @media print { body { max-width: none; padding: 0; font-size: 10pt; } .choices, nav { display: none; }
   figure, .scroll, tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
   .scroll { overflow: visible; } th, td { padding: .15rem .3rem; font-size: 7.5pt; }
-  svg { max-width: 34rem; } }
+  svg, .still, .compare { max-width: 30rem; } }
 )css";
 }
 

@@ -208,6 +208,11 @@ study_result run_study(const frame& input, const study_request& request, databas
     r.effects = done.effects;
     r.notes = done.notes;
 
+    // SQLite keeps no sign of zero: none may enter, or a resumed run would print another one.
+    each_column(r, [](const std::string&, column_kind, auto& value) {
+      if constexpr (std::is_same_v<decltype(value), double&>) value += 0.0;
+    });
+
     const int w = input.view_width, h = input.view_height;
     const auto seen = without_gaps(done.visibility);
     picture_files files{{"visibility", encode_png(visibility_map(seen, w, h))},
