@@ -92,7 +92,7 @@ embedded_scene garden_scene() {
             {"gap", "space between two slats", 0.02, 0, 0.1},
             {"leaves", "leaf cards of the crown", 3000, 0, 200000, true},
             {"leaf", "length of a leaf", 0.09, 0.01, 0.5},
-            {"crown", "radius of the crown", 1.5, 0.5, 2.5},
+            {"crown", "radius of the crown", 1.35, 0.5, 2.5},
             animation_parameter("the crown's swing in the wind")}},
           build};
 }
