@@ -4,124 +4,36 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "bitshade/arithmetic/wide.hpp"
-#include "bitshade/shadow/layers.hpp"
+#include "bitshade/shadow/lloyd_samples.hpp"
 
 namespace bitshade {
 
-/// What one texel of an unwarped VSM says about the splits.
-struct lloyd_sample {
-  double value = 0;   ///< mu + sigma: where the second occluder lies
-  double weight = 0;  ///< sigma^2: how much it would bleed
-};
-
-/// Limits of a sample's weight: below `low` it is noise and weighs nothing, above `high` it weighs
-/// no more than `high`, so that the farthest pairs of occluders do not decide alone.
-struct weight_limits {
-  double low = 4e-5;  ///< a little more than unorm16's own noise of 2.3e-5
-  double high = 0.01;
-};
-
-/// The sample of filtered moments.
+/// Where a split goes that teleports.
 ///
-///   value = min(1, mu + sigma), weight = min(sigma^2, high), 0 under low
-///
-/// Failure  none: a negative variance counts as 0, mu + sigma past 1 is clamped.
-/// Source   [LauritzenMcCool08] section 5; eq. 9 for one half's coverage.
-inline lloyd_sample lloyd_sample_of(double m1, double m2, const weight_limits& limits = {}) {
-  const double variance = std::max(0.0, m2 - m1 * m1);
-  return {std::clamp(m1 + std::sqrt(variance), 0.0, 1.0),
-          variance < limits.low ? 0.0 : std::min(variance, limits.high)};
-}
-
-/// All samples of a map, sorted by value, with exact prefix sums: values in steps of 2^-24, weights
-/// in steps of 2^-32. A cluster's mean and cost are then differences, whatever its size.
-class lloyd_samples {
- public:
-  explicit lloyd_samples(std::span<const lloyd_sample> samples) {
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> sorted;
-    for (const auto& s : samples) {
-      const auto weight = static_cast<std::uint64_t>(s.weight * 0x1p32 + 0.5);
-      if (weight > 0) sorted.emplace_back(grid(s.value), weight);
-    }
-    std::sort(sorted.begin(), sorted.end());
-    sums_.push_back({});
-    for (const auto& [value, weight] : sorted) {
-      const uint128 first = static_cast<uint128>(value) * weight;
-      sums next = sums_.back();
-      next.weight += weight;
-      next.first += first;
-      next.second += first * value;
-      if (!values_.empty() && values_.back() == value) {
-        sums_.back() = next;
-      } else {
-        values_.push_back(value);
-        sums_.push_back(next);
-      }
-    }
-  }
-
-  /// Sums over a range of samples: weights, weight * value, weight * value^2.
-  struct sums {
-    std::uint64_t weight = 0;
-    uint128 first = 0, second = 0;
-
-    /// The weighted mean on the split grid, halves up; weight > 0.
-    double mean() const {
-      return static_cast<double>((2 * first + weight) / (2 * static_cast<uint128>(weight))) *
-             split_grid;
-    }
-  };
-
-  bool empty() const { return values_.empty(); }
-  std::size_t distinct() const { return values_.size(); }
-
-  /// Samples with low <= value < high.
-  sums between(double low, double high) const {
-    const sums& a = sums_[below(low)];
-    const sums& b = sums_[below(high)];
-    return {b.weight - a.weight, b.first - a.first, b.second - a.second};
-  }
-  sums all() const { return sums_.back(); }
-
-  /// The sum of weight * (value - split)^2 over the samples with low <= value < high, in depth^2.
-  double cost(double low, double high, double split) const {
-    const sums s = between(low, high);
-    const uint128 c = grid(split);
-    // second - 2 c first + c^2 weight >= 0: under 2^24 samples of 32 bits, it fits 128 bits.
-    const uint128 cost = s.second + c * c * s.weight - 2 * c * s.first;
-    return static_cast<double>(cost) * 0x1p-80;
-  }
-
- private:
-  static std::uint64_t grid(double x) {
-    return static_cast<std::uint64_t>(std::clamp(x, 0.0, 2.0) * 0x1p24 + 0.5);
-  }
-  /// How many distinct values lie below x.
-  std::size_t below(double x) const {
-    // A midpoint of two grid values may lie between grid values: compare at half steps.
-    const auto at = std::lower_bound(
-        values_.begin(), values_.end(), x * 0x1p24,
-        [](std::uint64_t value, double limit) { return static_cast<double>(value) < limit; });
-    return static_cast<std::size_t>(at - values_.begin());
-  }
-
-  std::vector<std::uint64_t> values_;  ///< distinct, rising
-  std::vector<sums> sums_;             ///< of the first i distinct values
-};
+///   layer_mean     the mean of the samples between the two splits that have most weight between
+///                  them: the source's words
+///   layer_middle   the middle of that layer
+///   costly_half    the mean of the costliest cluster's samples on the costlier side of its split
+enum class teleport_target { layer_mean, layer_middle, costly_half };
 
 /// The choices that the source leaves open, or makes and one may want to undo.
 struct lloyd_options {
   int splits_per_frame = 0;  ///< 0: all; the source moves two a frame
-  bool teleport = true;
+  int latency = 0;           ///< frames until what was reduced is read back and used
+  bool teleport = true;      ///< a split whose samples weigh nothing moves to the heaviest layer
+  teleport_target target = teleport_target::layer_mean;
   double hysteresis = 0.01;  ///< a teleportation must lower the cost by this share of it
 };
 
 /// The splits while they relax. Equal inputs give equal splits.
+///
+/// A Field has between(low, high), whose result has `weight` and `mean()`, cost(low, high, split)
+/// and empty(): lloyd_samples, or lloyd_pyramid with a device's own sums.
 ///
 /// Source   [LauritzenMcCool08] section 5.
 class lloyd_relaxation {
@@ -132,58 +44,58 @@ class lloyd_relaxation {
   }
 
   const std::vector<double>& interior() const { return splits_; }
+  /// How many teleportations there were.
+  int teleportations() const { return teleportations_; }
 
   /// The cost of splits: each sample's weight times its squared distance to the nearest split.
-  static double cost(std::span<const double> interior, const lloyd_samples& samples) {
+  template <class Field>
+  static double cost(std::span<const double> interior, const Field& field) {
     double sum = 0;
     for (std::size_t i = 0; i < interior.size(); ++i) {
       const auto [low, high] = cluster(interior, i);
-      sum += samples.cost(low, high, interior[i]);
+      sum += field.cost(low, high, interior[i]);
     }
     return sum;
   }
 
   /// One frame: some splits, or all, move to the means of their clusters; a split whose samples
-  /// weigh nothing may teleport. Returns the largest move.
-  double step(const lloyd_samples& samples) {
-    if (splits_.empty() || samples.empty()) return 0;
-    const std::size_t count =
-        options_.splits_per_frame == 0
-            ? splits_.size()
-            : std::min(splits_.size(), static_cast<std::size_t>(options_.splits_per_frame));
-    std::vector<double> moved = splits_;
-    bool idle = false;
-    for (std::size_t n = 0; n < count; ++n) {
-      const std::size_t i = (next_ + n) % splits_.size();
-      const auto [low, high] = cluster(splits_, i);
-      const auto sums = samples.between(low, high);
-      if (sums.weight > 0) {
-        moved[i] = sums.mean();
-      } else {
-        idle = true;
-      }
+  /// weigh nothing may teleport. With a latency, what the frame computes is used later, and what
+  /// was computed that many frames ago now. Returns the largest move.
+  template <class Field>
+  double step(const Field& field) {
+    if (splits_.empty() || field.empty()) return 0;
+    pending_.push_back(decide(field));
+    if (pending_.size() <= static_cast<std::size_t>(options_.latency)) return 0;
+    const decision now = std::move(pending_.front());
+    pending_.pop_front();
+    const std::vector<double> before = splits_;
+    if (now.teleported) {
+      splits_ = now.all;
+      ++teleportations_;
+      pending_.clear();  // what was decided for the splits as they were means nothing now
+    } else {
+      for (const auto& [i, split] : now.moves) splits_[i] = split;
+      std::sort(splits_.begin(), splits_.end());
     }
-    next_ = (next_ + count) % splits_.size();
-    std::sort(moved.begin(), moved.end());
-    if (idle && options_.teleport) teleport(moved, samples);
     double largest = 0;
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      largest = std::max(largest, std::fabs(moved[i] - splits_[i]));
+    for (std::size_t i = 0; i < splits_.size(); ++i) {
+      largest = std::max(largest, std::fabs(splits_[i] - before[i]));
     }
-    splits_ = std::move(moved);
     return largest;
   }
 
-  /// Steps until no split moves by more than `rest` in as many frames as visit each split once.
-  /// Returns the number of frames.
-  int relax(const lloyd_samples& samples, int most_frames, double rest = split_grid) {
+  /// Steps until no split moves by more than `rest` in as many frames as visit each split once and
+  /// read it back. Returns the number of frames.
+  template <class Field>
+  int relax(const Field& field, int most_frames, double rest = split_grid) {
     int still = 0;
-    const int round = options_.splits_per_frame == 0 || splits_.empty()
-                          ? 1
-                          : (static_cast<int>(splits_.size()) + options_.splits_per_frame - 1) /
-                                options_.splits_per_frame;
+    const int round = (options_.splits_per_frame == 0 || splits_.empty()
+                           ? 1
+                           : (static_cast<int>(splits_.size()) + options_.splits_per_frame - 1) /
+                                 options_.splits_per_frame) +
+                      options_.latency;
     for (int frame = 1; frame <= most_frames; ++frame) {
-      still = step(samples) <= rest ? still + 1 : 0;
+      still = step(field) <= rest ? still + 1 : 0;
       if (still >= round) return frame;
     }
     return most_frames;
@@ -199,38 +111,99 @@ class lloyd_relaxation {
             i + 1 == splits.size() ? 2.0 : (splits[i] + splits[i + 1]) / 2};
   }
 
-  /// Drops one split without samples and splits the heaviest layer at the mean of its samples,
-  /// provided that the cost falls by the hysteresis: the cost bounds how often that can happen.
-  void teleport(std::vector<double>& splits, const lloyd_samples& samples) const {
-    for (std::size_t i = 0; i < splits.size(); ++i) {
-      const auto [low, high] = cluster(splits, i);
-      if (samples.between(low, high).weight > 0) continue;
-      std::vector<double> without = splits;
-      without.erase(without.begin() + static_cast<std::ptrdiff_t>(i));
-      double from = 0, best = 0;
-      std::uint64_t heaviest = 0;
-      for (std::size_t j = 0; j <= without.size(); ++j) {
-        const double to = j < without.size() ? without[j] : 2.0;
-        const auto sums = samples.between(from, to);
-        if (sums.weight > heaviest) {
-          heaviest = sums.weight;
-          best = sums.mean();
-        }
-        from = to;
-      }
-      if (heaviest == 0) return;
-      std::vector<double> with = without;
-      with.insert(std::upper_bound(with.begin(), with.end(), best), best);
-      if (cost(with, samples) < (1 - options_.hysteresis) * cost(splits, samples)) {
-        splits = std::move(with);
-        return;  // one a frame
+  /// What a frame's sums say: new places of some splits, or all splits after a teleportation.
+  struct decision {
+    std::vector<std::pair<std::size_t, double>> moves;
+    bool teleported = false;
+    std::vector<double> all;
+  };
+
+  template <class Field>
+  decision decide(const Field& field) {
+    const std::size_t count =
+        options_.splits_per_frame == 0
+            ? splits_.size()
+            : std::min(splits_.size(), static_cast<std::size_t>(options_.splits_per_frame));
+    decision result;
+    bool idle = false;
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::size_t i = (next_ + n) % splits_.size();
+      const auto [low, high] = cluster(splits_, i);
+      const auto sums = field.between(low, high);
+      if (sums.weight > 0) {
+        result.moves.emplace_back(i, std::clamp(sums.mean(), 0.0, 1.0));
+      } else {
+        idle = true;
       }
     }
+    next_ = (next_ + count) % splits_.size();
+    if (idle && options_.teleport) {
+      result.all = splits_;
+      for (const auto& [i, split] : result.moves) result.all[i] = split;
+      std::sort(result.all.begin(), result.all.end());
+      result.teleported = teleport(result.all, field);
+    }
+    return result;
+  }
+
+  /// Where the samples that n splits serve worst would have one more.
+  template <class Field>
+  double target(const std::vector<double>& splits, const Field& field) const {
+    double most = 0, place = -1;
+    if (options_.target == teleport_target::costly_half) {
+      for (std::size_t i = 0; i < splits.size(); ++i) {
+        const auto [low, high] = cluster(splits, i);
+        for (const auto& [from, to] : {range{low, splits[i]}, range{splits[i], high}}) {
+          const double cost = field.cost(from, to, splits[i]);
+          const auto sums = field.between(from, to);
+          if (cost > most && sums.weight > 0) {
+            most = cost;
+            place = sums.mean();
+          }
+        }
+      }
+      return place;
+    }
+    double from = 0;
+    for (std::size_t j = 0; j <= splits.size(); ++j) {
+      const double to = j < splits.size() ? splits[j] : 2.0;
+      const auto sums = field.between(from, to);
+      if (static_cast<double>(sums.weight) > most) {
+        most = static_cast<double>(sums.weight);
+        place = options_.target == teleport_target::layer_mean ? sums.mean()
+                                                               : (from + std::min(to, 1.0)) / 2;
+      }
+      from = to;
+    }
+    return place;
+  }
+
+  /// Drops one split without samples, merging two layers, and places it at the target instead,
+  /// provided that the cost falls by the hysteresis: the cost bounds how often that can happen.
+  template <class Field>
+  bool teleport(std::vector<double>& splits, const Field& field) const {
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+      const auto [low, high] = cluster(splits, i);
+      if (field.between(low, high).weight > 0) continue;
+      std::vector<double> with = splits;
+      with.erase(with.begin() + static_cast<std::ptrdiff_t>(i));
+      const double place = target(with, field);
+      if (place < 0) return false;
+      const double inside = std::min(place, 1.0);
+      with.insert(std::upper_bound(with.begin(), with.end(), inside), inside);
+      if (cost(with, field) < (1 - options_.hysteresis) * cost(splits, field)) {
+        splits = std::move(with);
+        return true;  // one a frame
+      }
+    }
+    return false;
   }
 
   std::vector<double> splits_;
   lloyd_options options_;
+  std::deque<decision> pending_;
   std::size_t next_ = 0;
+  int teleportations_ = 0;
 };
 
 }  // namespace bitshade

@@ -29,7 +29,17 @@ inline technique technique_named(std::string_view name) {
 }
 
 /// Where the layers' boundaries come from.
-enum class split_rule { uniform, lloyd, manual };
+///
+///   uniform     equal distances
+///   lloyd       Lloyd relaxation over the depth map, at rest
+///   manual      as given
+///   lloyd-view  Lloyd relaxation over what the camera sees of the map
+///   optimal     the least of the cost that Lloyd relaxation lowers, by dynamic programming
+///   receivers   the least measured error of the actual receivers, by search
+enum class split_rule { uniform, lloyd, manual, lloyd_view, optimal, receivers };
+
+inline constexpr std::array<std::string_view, 6> split_rule_names{
+    "uniform", "lloyd", "manual", "lloyd-view", "optimal", "receivers"};
 
 /// What a variance shadow map stores beside the depth x.
 ///
@@ -140,7 +150,7 @@ inline std::string configuration::key() const {
         }
         add("splits", list);
       } else {
-        add("splits", splits == split_rule::uniform ? "uniform" : "lloyd");
+        add("splits", std::string(split_rule_names[static_cast<std::size_t>(splits)]));
       }
       add("overlap", detail::shortest(overlap));
       if (transition) add("transition", "on");
