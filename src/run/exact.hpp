@@ -61,6 +61,8 @@ class exact_engine {
     const stopwatch watch(times_.map_seconds);
     near_ = depth_of(static_cast<float>(layer.near));
     width_ = depth_of(static_cast<float>(layer.far)) - near_;
+    const auto square = widened<light_limbs>(squared(width_)) << (2 * scale);
+    layer_floor_ = square < floor_ ? square : floor_;
     levels_.clear();
     levels_.emplace_back(scene_.depth.width, scene_.depth.height);
     blur(levels_.front());
@@ -309,7 +311,7 @@ class exact_engine {
       return {wide<light_limbs>(std::uint64_t{1}), wide<light_limbs>(std::uint64_t{1})};
     const auto d = t - total.first;
     auto v2 = (by(total.second) << scale) - narrowed<light_limbs>(total.first * total.first);
-    const auto floor = by(by(floor_));
+    const auto floor = by(by(layer_floor_));
     if (v2 < floor) v2 = floor;
     return {v2, v2 + narrowed<light_limbs>(d * d)};
   }
@@ -330,6 +332,7 @@ class exact_engine {
   cell& times_;
   std::vector<std::uint64_t> blur_;
   const wide<light_limbs> floor_ = floor_of(how_.min_variance);
+  wide<light_limbs> layer_floor_;
   depth_int near_{}, width_{};
   std::vector<level_map> levels_;
 };

@@ -1,5 +1,6 @@
 #include "run/pipeline.hpp"
 
+#include "bitshade/formats/name.hpp"
 #include "io/error.hpp"
 #include "run/engines.hpp"
 #include "run/parallel.hpp"
@@ -12,6 +13,9 @@ namespace {
 int bytes_of(const configuration& how, const plan& effects, int bits) {
   const auto layers =
       how.method == technique::lvsm ? static_cast<int>(effects.splits.size()) - 1 : 1;
+  if (how.method == technique::savsm && parse_encoding(how.format)->kind != family::binary) {
+    bits = bits <= 16 ? 32 : 64;  // sums of codes
+  }
   return (bits * how.channels() * layers + 7) / 8;
 }
 
@@ -25,6 +29,8 @@ run_function function_of(const configuration& how) {
     case technique::vsm:
     case technique::lvsm:
       return how.exact() ? run_variance_exact : run_variance_native;
+    case technique::savsm:
+      return how.exact() ? run_summed_area_exact : run_summed_area_native;
     case technique::evsm2:
     case technique::evsm4:
     case technique::esm:

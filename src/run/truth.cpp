@@ -8,6 +8,7 @@
 #include "run/engines.hpp"
 #include "run/exact_grid.hpp"
 #include "run/parallel.hpp"
+#include "run/summed_area.hpp"
 
 namespace bitshade {
 
@@ -163,7 +164,14 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
       const receiver& r = scene.receivers[i];
       if (!has_receiver(r)) continue;
       const auto lit = make_lit(r);
-      if (look.plain()) {
+      if (how.method == technique::savsm) {
+        const auto box = box_of(r, width, height, smallest_box(how));
+        int count = 0;
+        for (int y = box.y0; y < box.y1; ++y) {
+          for (int x = box.x0; x < box.x1; ++x) count += lit(x, y) ? 1 : 0;
+        }
+        shares[i] = static_cast<double>(count) / box.area();
+      } else if (look.plain()) {
         const auto at = plain_footprint_of(look, r, blur, width, height);
         const auto share = lit_share<uint128>(
             at.columns, at.rows, [&](int x, int y, std::size_t, std::size_t) { return lit(x, y); });

@@ -35,13 +35,24 @@ T clamp_depth(const T& x) {
 
 /// The layer's floor: a variance of sigma_min^2 in depth is one of sigma_min^2 / w^2 in the layer.
 ///
+///   min(1, sigma_min^2 / w^2)
+///
+/// No variance in [0,1] exceeds 1/4; a floor of 1 already lights everything in the layer by a half
+/// or more, and the cap keeps it finite where w is next to nothing.
+///
 /// Units    min_variance in depth^2; result in the layer's own units.
-/// Policy   every operation is T's; w is exact in T.
+/// Policy   every operation is T's; w is exact in binary32 and wider.
+/// Failure  none: where w^2 underflows the floor is 1, or 0 if there is none.
 /// Source   [LauritzenMcCool08] section 4.2.
 template <class T>
 T layer_floor(double min_variance, const interval& layer) {
+  const T zero = static_cast<T>(0), one = static_cast<T>(1);
+  const T variance = static_cast<T>(min_variance);
   const T width = static_cast<T>(layer.far - layer.near);
-  return static_cast<T>(min_variance) / (width * width);
+  const T square = width * width;
+  const auto vanished = square == zero;
+  const T floor = variance / select(vanished, one, square);
+  return select(vanished, select(variance == zero, zero, one), select(floor > one, one, floor));
 }
 
 /// A row of first moments: E[x] of one texel is its warped depth.

@@ -234,6 +234,9 @@ inline void configuration::validate() const {
   if (!(exponent > 0 && exponent <= 700 && negative_exponent > 0 && negative_exponent <= 700)) {
     refuse("an exponent is outside 0 to 700");
   }
+  if (method == technique::savsm && slope_term) {
+    refuse("the slope term is for vsm and lvsm: a summed-area table filters over whole slopes");
+  }
   if (terms < 1 || terms > 64) refuse("terms = " + std::to_string(terms) + " is outside 1 to 64");
   if (!(moment_bias >= 0 && moment_bias < 1)) {
     refuse("moment bias = " + detail::shortest(moment_bias) + " is outside [0, 1)");

@@ -1,0 +1,116 @@
+#include <limits>
+#include <vector>
+
+#include "bitshade/formats/encode.hpp"
+#include "bitshade/texture/sat.hpp"
+#include "io/error.hpp"
+#include "run/engines.hpp"
+#include "run/parallel.hpp"
+#include "run/summed_area.hpp"
+#include "run/variance.hpp"
+
+namespace bitshade {
+
+namespace {
+
+template <class T>
+T sum_over(const summed_area<T>& sums, const texel_box& box, int channel) {
+  return box_sum(sums, box.x0, box.y0, box.x1 - 1, box.y1 - 1, channel);
+}
+
+/// Shades every receiver by `mean`, which gives one channel's mean over a box.
+template <class T, class Mean>
+void shade(run_context& run, const variance_technique<T>& technique, Mean mean) {
+  const stopwatch watch(run.result.shade_seconds);
+  const frame& scene = run.scene;
+  run.result.visibility.assign(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
+  for_ranges(run.threads, scene.receivers.size(), 2048, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const receiver& r = scene.receivers[i];
+      if (!has_receiver(r)) continue;
+      const auto box =
+          box_of(r, scene.depth.width, scene.depth.height, smallest_box(run.how));
+      const T values[2] = {mean(box, 0), mean(box, 1)};
+      const T p = technique.light(values, clamp_depth(static_cast<T>(r.t)));
+      const auto alpha = static_cast<T>(on_split_grid(run.how.bleeding_reduction));
+      run.result.visibility[i] =
+          static_cast<double>(alpha == T(0) ? p : reduce_bleeding(p, alpha));
+    }
+  });
+}
+
+/// Norms and fixed point: sums of codes in wrapping integers, which lose nothing.
+template <class T, class Code>
+void run_codes(run_context& run, const image<T>& texels, const variance_technique<T>& technique) {
+  const encoding& format = run.storage.format;
+  image<Code> codes(texels.width, texels.height, 2);
+  {
+    const stopwatch watch(run.result.emulation_seconds);
+    for_rows(run.threads, texels.height, [&](int y) {
+      for (std::size_t i = 0; i < texels.row_size(); ++i) {
+        codes.row(y)[i] = static_cast<Code>(
+            encode(format, static_cast<double>(texels.row(y)[i]), run.storage.rounding));
+      }
+    });
+  }
+  summed_area<Code> sums;
+  {
+    const stopwatch watch(run.result.map_seconds);
+    sums = make_sat(std::move(codes), sat_order::running, sat_offset::none, [](std::span<Code>) {});
+  }
+  const double unit = decode(format, 1);
+  shade(run, technique, [&](const texel_box& box, int c) {
+    return static_cast<T>(static_cast<double>(sum_over(sums, box, c)) * unit / box.area());
+  });
+}
+
+/// Floating point: running sums in the arithmetic, stored after each direction.
+template <class T>
+void run_sums(run_context& run, image<T> texels, const variance_technique<T>& technique) {
+  const std::string size =
+      std::to_string(texels.width) + " x " + std::to_string(texels.height) + " texels";
+  summed_area<T> sums;
+  {
+    const stopwatch watch(run.result.map_seconds);
+    sums = make_sat(std::move(texels), sat_order::running, sat_offset::none,
+                    [&](std::span<T> row) { round_row(run.storage, row); });
+  }
+  for (const T x : sums.sums.texels) {
+    if (!(x <= std::numeric_limits<T>::max())) {
+      throw usage_error("a summed-area table of " + size + " overflows " + run.how.format +
+                        ": ask for a smaller --size, or a format of wider range such as binary32");
+    }
+  }
+  shade(run, technique, [&](const texel_box& box, int c) {
+    return sum_over(sums, box, c) / static_cast<T>(box.area());
+  });
+}
+
+template <class T>
+void run_in(run_context& run) {
+  const image<float>& depth = run.scene.depth;
+  variance_technique<T> technique(run.how, run.storage, depth);
+  technique.begin({0, 1});
+  image<T> texels(depth.width, depth.height, 2);
+  {
+    const stopwatch watch(run.result.map_seconds);
+    for_rows(run.threads, depth.height, [&](int y) { technique.fill(depth, y, texels.row(y)); });
+  }
+  const encoding& format = run.storage.format;
+  if (format.kind == family::binary) {
+    for_rows(run.threads, depth.height, [&](int y) { round_row(run.storage, texels.row(y)); });
+    run_sums<T>(run, std::move(texels), technique);
+  } else if (format.width <= 16) {
+    run_codes<T, std::uint32_t>(run, texels, technique);
+  } else {
+    run_codes<T, std::uint64_t>(run, texels, technique);
+  }
+}
+
+}  // namespace
+
+void run_summed_area_native(run_context& run) {
+  run.storage.wide ? run_in<double>(run) : run_in<float>(run);
+}
+
+}  // namespace bitshade
