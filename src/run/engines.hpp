@@ -26,8 +26,8 @@ void run_depth_exact(run_context& run);      ///< hard, pcf without rounding
 
 void run_exponential_native(run_context& run);  ///< evsm2, evsm4, esm
 
-void run_summed_area_native(run_context& run);   ///< savsm
-void run_summed_area_exact(run_context& run);    ///< savsm in integers of proven width
+void run_summed_area_native(run_context& run);  ///< savsm
+void run_summed_area_exact(run_context& run);   ///< savsm in integers of proven width
 
 /// The hard test of the map as it is: 1 where x >= t at the nearest texel.
 std::vector<double> hard_exact(const frame& scene, int threads);

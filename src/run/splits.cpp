@@ -4,8 +4,8 @@
 
 #include "bitshade/formats/encoding.hpp"
 #include "bitshade/shadow/lloyd.hpp"
-#include "bitshade/shadow/optimal_splits.hpp"
 #include "bitshade/shadow/moments.hpp"
+#include "bitshade/shadow/optimal_splits.hpp"
 #include "bitshade/study/measures.hpp"
 #include "run/lookup.hpp"
 #include "run/parallel.hpp"
@@ -87,7 +87,8 @@ std::vector<double> searched_splits(const frame& scene, const configuration& how
       const double middle = split;
       for (int k = -4; k <= 4; ++k) {
         const double before = split;
-        const double tried = on_split_grid(std::clamp(middle + k * reach / 4, split_grid, 1 - split_grid));
+        const double tried =
+            on_split_grid(std::clamp(middle + k * reach / 4, split_grid, 1 - split_grid));
         if (tried == before) continue;
         split = tried;
         const double error = error_of(interior);

@@ -21,7 +21,7 @@ struct texel_box {
 inline constexpr int widest_box = 256;
 
 /// The texels under a pixel: as wide as its screen derivatives, at least `smallest`, within the
-/// map. [LauritzenMcCool08b]
+/// map. [LauritzenMcCoolSAVSM]
 inline texel_box box_of(const receiver& r, int width, int height, int smallest) {
   struct range {
     int first, last;
@@ -29,7 +29,8 @@ inline texel_box box_of(const receiver& r, int width, int height, int smallest) 
   const auto axis = [&](double at, double dx, double dy, int size) {
     const double extent = std::ceil((std::fabs(dx) + std::fabs(dy)) * size);
     const int most = std::min(widest_box, size);
-    const int count = extent < most ? std::clamp(static_cast<int>(extent), std::min(smallest, most), most) : most;
+    const int count =
+        extent < most ? std::clamp(static_cast<int>(extent), std::min(smallest, most), most) : most;
     const int first = texel_floor(at * size - count * 0.5 + 0.5);
     const int from = std::clamp(first, 0, size - 1);
     return range{from, std::clamp(first + count, from + 1, size)};

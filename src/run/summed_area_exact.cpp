@@ -38,7 +38,8 @@ T sum_over(const image<T>& sums, const texel_box& box) {
 /// so that the floor is an integer, too.
 template <int S>
 void run_in(run_context& run) {
-  constexpr int scale = 192;  // 1e-60, the smallest floor, is a multiple of 2^-252 <= 2^-(2S + scale)
+  constexpr int scale =
+      192;  // 1e-60, the smallest floor, is a multiple of 2^-252 <= 2^-(2S + scale)
   using first_int = wide<limbs_for(S + 1 + 28)>;
   using second_int = wide<limbs_for(2 * S + 1 + 28)>;
   using light_int = wide<limbs_for(2 * (S + 1 + 16) + scale + 1)>;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "bitshade/formats/encode.hpp"
+#include "bitshade/formats/limits.hpp"
 #include "bitshade/texture/sat.hpp"
 #include "io/error.hpp"
 #include "run/engines.hpp"
@@ -28,13 +29,11 @@ void shade(run_context& run, const variance_technique<T>& technique, Mean mean) 
     for (std::size_t i = first; i < last; ++i) {
       const receiver& r = scene.receivers[i];
       if (!has_receiver(r)) continue;
-      const auto box =
-          box_of(r, scene.depth.width, scene.depth.height, smallest_box(run.how));
+      const auto box = box_of(r, scene.depth.width, scene.depth.height, smallest_box(run.how));
       const T values[2] = {mean(box, 0), mean(box, 1)};
       const T p = technique.light(values, clamp_depth(static_cast<T>(r.t)));
       const auto alpha = static_cast<T>(on_split_grid(run.how.bleeding_reduction));
-      run.result.visibility[i] =
-          static_cast<double>(alpha == T(0) ? p : reduce_bleeding(p, alpha));
+      run.result.visibility[i] = static_cast<double>(alpha == T(0) ? p : reduce_bleeding(p, alpha));
     }
   });
 }
@@ -67,19 +66,17 @@ void run_codes(run_context& run, const image<T>& texels, const variance_techniqu
 /// Floating point: running sums in the arithmetic, stored after each direction.
 template <class T>
 void run_sums(run_context& run, image<T> texels, const variance_technique<T>& technique) {
-  const std::string size =
-      std::to_string(texels.width) + " x " + std::to_string(texels.height) + " texels";
+  const double most = decode(run.storage.format, max_bits(run.storage.format));
+  if (!sat_fits(texels.width, texels.height, 1.0, most)) {
+    throw usage_error("a summed-area table of " + std::to_string(texels.width) + " x " +
+                      std::to_string(texels.height) + " texels overflows " + run.how.format +
+                      ": ask for a smaller --size, or a format of wider range such as binary32");
+  }
   summed_area<T> sums;
   {
     const stopwatch watch(run.result.map_seconds);
     sums = make_sat(std::move(texels), sat_order::running, sat_offset::none,
                     [&](std::span<T> row) { round_row(run.storage, row); });
-  }
-  for (const T x : sums.sums.texels) {
-    if (!(x <= std::numeric_limits<T>::max())) {
-      throw usage_error("a summed-area table of " + size + " overflows " + run.how.format +
-                        ": ask for a smaller --size, or a format of wider range such as binary32");
-    }
   }
   shade(run, technique, [&](const texel_box& box, int c) {
     return sum_over(sums, box, c) / static_cast<T>(box.area());

@@ -11,7 +11,7 @@ using namespace bitshade;
 
 namespace {
 
-const std::vector<std::string> formats{"unorm8",   "unorm16",  "unorm24", "snorm16",  "half",
+const std::vector<std::string> formats{"unorm8",   "unorm16",  "unorm24",  "snorm16", "half",
                                        "bfloat16", "binary32", "binary64", "exact"};
 
 std::vector<double> run(const frame& scene, const configuration& how) {

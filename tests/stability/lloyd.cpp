@@ -109,9 +109,8 @@ TEST_CASE("hard case 30: 16-bit sums lose small weights, which is told; binary32
   image<lloyd_sample> map(64, 64, 1, {0.5, 0.0});
   map.at(10, 10) = {0.75, 1e-4};
   map.at(40, 50) = {0.25, 1e-4};
-  for (const auto& [store, keeps] : {std::pair{unorm_encoding(16), false},
-                                     {binary16::value, false},
-                                     {binary32::value, true}}) {
+  for (const auto& [store, keeps] :
+       {std::pair{unorm_encoding(16), false}, {binary16::value, false}, {binary32::value, true}}) {
     const lloyd_pyramid field(map, store);
     const auto sums = field.between(0.6, 0.9);
     CHECK((sums.weight > 0) == keeps);

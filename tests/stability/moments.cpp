@@ -173,7 +173,8 @@ TEST_CASE("hard cases 10 and 11: a tie belongs to the nearer layer, t = 1 to the
   }
 }
 
-TEST_CASE("hard cases 12 and 14: depths outside [0,1] and the clear value keep moments consistent") {
+TEST_CASE(
+    "hard cases 12 and 14: depths outside [0,1] and the clear value keep moments consistent") {
   in_every_arithmetic([](auto zero) {
     using T = decltype(zero);
     for (const interval& layer : {interval{0, 1}, interval{0.25, 0.5}, interval{0.5, 1}}) {
@@ -240,7 +241,8 @@ TEST_CASE("hard case 20: truncation at the store biases the light, to nearest do
   for (int i = 1; i < 60000; ++i) {
     const double x = (i + 0.618) / 60001;
     const auto variance = [&](const rules& r) {
-      return mean_and_variance(round_to(unorm16_code, x, r), round_to(unorm16_code, x * x, r)).variance;
+      return mean_and_variance(round_to(unorm16_code, x, r), round_to(unorm16_code, x * x, r))
+          .variance;
     };
     nearest += variance({});
     down += variance(truncated);
@@ -249,12 +251,14 @@ TEST_CASE("hard case 20: truncation at the store biases the light, to nearest do
   CAPTURE(nearest / count / q16, down / count / q16);
   CHECK(std::fabs(nearest / count) < 0.02 * q16);
   CHECK(std::fabs(down / count) < 0.1 * q16);
-  // E[2 mu e - e] = (2 mu - 1) q/2 over all depths: no bias on average, but far from none at mu = 1.
+  // E[2 mu e - e] = (2 mu - 1) q/2 over all depths: no bias on average, but far from none at mu
+  // = 1.
   double near_one = 0;
   for (int i = 0; i < 10000; ++i) {
     const double x = 1 - (i + 0.618) * 0x1p-24 * 7;
     near_one += mean_and_variance(round_to(unorm16_code, x, truncated),
-                                  round_to(unorm16_code, x * x, truncated)).variance;
+                                  round_to(unorm16_code, x * x, truncated))
+                    .variance;
   }
   CHECK(near_one / 10000 > 0.3 * q16);
 }
@@ -282,7 +286,8 @@ TEST_CASE("hard case 41: in half, squares of differences underflow and floors of
   using half = real<binary16>;
   int underflown = 0;
   for (std::uint16_t bits = 0; bits < 0x3c00; ++bits) {
-    const half mu = half::from_bits(bits), t = half::from_bits(static_cast<std::uint16_t>(bits + 1));
+    const half mu = half::from_bits(bits),
+               t = half::from_bits(static_cast<std::uint16_t>(bits + 1));
     const half d = t - mu;
     underflown += static_cast<double>(d * d) == 0 ? 1 : 0;
     for (const half floor : {half(0), half(0x1p-24), half(1e-4)}) {

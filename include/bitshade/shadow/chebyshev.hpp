@@ -56,7 +56,7 @@ T chebyshev(const mean_variance<T>& at, const T& t, const T& floor) {
 /// Shapes   alpha in [0, 1).
 /// Policy   every operation is T's. At alpha = 0, p itself.
 /// Failure  none: where alpha rounds to 1 in T the result is 1 for p = 1, else 0.
-/// Source   [LauritzenMcCool08b].
+/// Source   [LauritzenMcCoolSAVSM].
 template <class T>
 T reduce_bleeding(const T& p, const T& alpha) {
   const T zero = static_cast<T>(0), one = static_cast<T>(1);

@@ -26,7 +26,8 @@ inline std::vector<double> optimal_splits(const lloyd_samples& samples, std::siz
     starts.clear();
     for (std::size_t i = 0; i < groups; ++i) {
       const double low = static_cast<double>(i) / static_cast<double>(groups);
-      const double high = i + 1 == groups ? 2.0 : static_cast<double>(i + 1) / static_cast<double>(groups);
+      const double high =
+          i + 1 == groups ? 2.0 : static_cast<double>(i + 1) / static_cast<double>(groups);
       if (samples.between(low, high).weight > 0) starts.push_back(low);
     }
   }

@@ -33,8 +33,8 @@ TEST_CASE("a sample is the second occluder, weighted by the variance between its
   CHECK(s.weight == weight_limits{}.high);
   CHECK(lloyd_sample_of(0.5, 0.25 + 1e-5).weight == 0);
   CHECK(lloyd_sample_of(0.5, 0.25 + 1e-3).weight == Approx(1e-3));
-  CHECK(lloyd_sample_of(0.5, 0.2).value == 0.5);    // a negative variance is none
-  CHECK(lloyd_sample_of(0.9, 0.9).value == 1);      // past 1
+  CHECK(lloyd_sample_of(0.5, 0.2).value == 0.5);  // a negative variance is none
+  CHECK(lloyd_sample_of(0.9, 0.9).value == 1);    // past 1
 }
 
 TEST_CASE("prefix sums are the sums") {
@@ -93,11 +93,12 @@ TEST_CASE("relaxation never raises the cost, and teleports out of a bad start") 
   const auto stuck = relaxed(options);
   CHECK(stuck.interior()[1] == 0.5);
   options.teleport = true;
-  for (const auto target : {teleport_target::layer_mean, teleport_target::layer_middle,
-                            teleport_target::costly_half}) {
+  for (const auto target :
+       {teleport_target::layer_mean, teleport_target::layer_middle, teleport_target::costly_half}) {
     options.target = target;
     const auto moved = relaxed(options);
-    CAPTURE(static_cast<int>(target), moved.interior()[0], moved.interior()[1], moved.interior()[2]);
+    CAPTURE(static_cast<int>(target), moved.interior()[0], moved.interior()[1],
+            moved.interior()[2]);
     CHECK(cost_of(moved) <= cost_of(stuck));
     if (target == teleport_target::costly_half) {
       CHECK(moved.teleportations() > 0);
@@ -121,7 +122,8 @@ TEST_CASE("dynamic programming is no worse than any start of the relaxation, or 
   for (int round = 0; round < 20; ++round) {
     std::vector<lloyd_sample> samples;
     for (int i = 0; i < 40; ++i) {
-      samples.push_back({static_cast<double>(random() % 64) / 64, 0x1p-10 * static_cast<double>(1 + random() % 8)});
+      samples.push_back({static_cast<double>(random() % 64) / 64,
+                         0x1p-10 * static_cast<double>(1 + random() % 8)});
     }
     const lloyd_samples field(samples);
     const auto best = optimal_splits(field, 2);
@@ -136,7 +138,8 @@ TEST_CASE("dynamic programming is no worse than any start of the relaxation, or 
     }
     lloyd_relaxation relaxation({0.25, 0.75});
     relaxation.relax(field, 200);
-    CHECK(least <= lloyd_relaxation::cost(std::span<const double>(relaxation.interior()), field) * (1 + 1e-6));
+    CHECK(least <= lloyd_relaxation::cost(std::span<const double>(relaxation.interior()), field) *
+                       (1 + 1e-6));
   }
 }
 
@@ -144,7 +147,9 @@ TEST_CASE("a pyramid in binary64 gives the samples' own sums") {
   for (const auto& [w, h] : {std::pair{16, 16}, {13, 7}, {1, 9}}) {
     image<lloyd_sample> map(w, h);
     std::mt19937_64 random(5);
-    for (auto& s : map.texels) s = {static_cast<double>(random() % 1024) / 1024, 0x1p-10 * static_cast<double>(random() % 16)};
+    for (auto& s : map.texels)
+      s = {static_cast<double>(random() % 1024) / 1024,
+           0x1p-10 * static_cast<double>(random() % 16)};
     const lloyd_samples field(map.texels);
     const lloyd_pyramid pyramid(map, binary64::value);
     const auto exact = field.between(0.25, 0.75);
