@@ -124,8 +124,9 @@ void negative_warp_row(std::span<const float> depth, const evsm_constants& c, st
 /// Source   the chain rule on w = e^(c x), as (7) is on (6).
 template <class T>
 T warped_floor(double min_variance, double c, const T& w) {
+  // In this order: the slope's square alone overflows below the exponent's cap.
   const T slope = static_cast<T>(c) * w;
-  return static_cast<T>(min_variance) * (slope * slope);
+  return static_cast<T>(min_variance) * slope * slope;
 }
 
 /// The variance that K roundings of both moments to a format can feign at a warped depth w.
