@@ -58,11 +58,16 @@ int layers_of(const std::string& word) {
 }
 
 void choose_splits(const std::string& text, configuration& c) {
-  static constexpr std::array<std::string_view, 2> rules{"uniform", "lloyd"};
-  if (text == "uniform") {
-    c.splits = split_rule::uniform;
-  } else if (text == "lloyd") {
-    c.splits = split_rule::lloyd;
+  // Every rule by its name; manual splits are told by their numbers.
+  std::vector<std::string_view> rules;
+  for (const auto name : split_rule_names) {
+    if (name != split_rule_names[static_cast<std::size_t>(split_rule::manual)])
+      rules.push_back(name);
+  }
+  const auto known = std::find(rules.begin(), rules.end(), text);
+  if (known != rules.end()) {
+    const auto at = std::find(split_rule_names.begin(), split_rule_names.end(), text);
+    c.splits = static_cast<split_rule>(at - split_rule_names.begin());
   } else if (!text.empty() && (text[0] >= 'a' && text[0] <= 'z') && text != "inf" &&
              text != "nan") {
     throw usage_error(
@@ -135,7 +140,8 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
       ->default_str(o->layers)
       ->option_text("LIST")
       ->group(group);
-  app.add_option("--splits", o->splits, "uniform, lloyd, or the boundaries themselves: 0.3,0.94")
+  app.add_option("--splits", o->splits,
+                 "uniform, lloyd, lloyd-view, optimal, receivers, or boundaries: 0.3,0.94")
       ->capture_default_str()
       ->option_text("RULE")
       ->group(group);

@@ -118,15 +118,17 @@ void negative_warp_row(std::span<const float> depth, const evsm_constants& c, st
 
 /// The floor of a warped depth: a variance of sigma_min^2 in depth, seen through the warp's slope.
 ///
-///   floor = sigma_min^2 (c w)^2
+///   floor = min(1, sigma_min^2 c^2) w^2
+///
+/// The minimum keeps it finite wherever w^2 is: a floor of w^2 already is the whole range.
 ///
 /// Units    min_variance in depth^2; w the receiver's warped depth; result in w's units squared.
 /// Source   the chain rule on w = e^(c x), as (7) is on (6).
 template <class T>
 T warped_floor(double min_variance, double c, const T& w) {
-  // In this order: the slope's square alone overflows below the exponent's cap.
-  const T slope = static_cast<T>(c) * w;
-  return static_cast<T>(min_variance) * slope * slope;
+  const T one = static_cast<T>(1), rate = static_cast<T>(c);
+  const T share = static_cast<T>(min_variance) * rate * rate;
+  return select(share < one, share, one) * (w * w);
 }
 
 /// The variance that K roundings of both moments to a format can feign at a warped depth w.

@@ -1,16 +1,12 @@
-// Layers generated at once and alone, blends across splits, and exact visibility functions.
+// Layers generated at once and alone, their overlaps, and blends across splits.
 #include "bitshade/shadow/layers.hpp"
 
 #include <random>
 
-#include "bitshade/interop/rational.hpp"
-#include "bitshade/shadow/chebyshev.hpp"
-#include "bitshade/shadow/deep_map.hpp"
 #include "bitshade/shadow/layer_packing.hpp"
 #include "support/catch.hpp"
 
 using namespace bitshade;
-using q = exact_rational;
 
 TEST_CASE("generation in one pass and layer by layer give the same bits") {
   std::mt19937 random(1);
@@ -64,46 +60,4 @@ TEST_CASE("a transition blends the two layers beside a split, from one's light t
   CHECK(wide(0.3) == 0);
   CHECK(wide(0.45) == 1);
   CHECK(wide(0.375) == 0);
-}
-
-TEST_CASE("a visibility function is the share of weights at or beyond t") {
-  std::mt19937 random(2);
-  std::vector<std::pair<q, q>> footprint;
-  for (int i = 0; i < 60; ++i) {
-    footprint.emplace_back(q(static_cast<double>(random() % 16) / 16),
-                           q(1 + static_cast<int>(random() % 5)));
-  }
-  const visibility_function<q> exact(footprint);
-  CHECK(exact.steps() <= 16);
-  for (int k = -1; k <= 33; ++k) {
-    const q t(k / 32.0);
-    q lit(0), all(0);
-    for (const auto& [depth, weight] : footprint) {
-      all += weight;
-      if (depth >= t) lit += weight;
-    }
-    CHECK(exact(t) == lit / all);
-  }
-  CHECK(visibility_function<double>({})(0.5) == 1);
-}
-
-TEST_CASE("Chebyshev's bound never lies below the exact visibility function") {
-  std::mt19937 random(3);
-  for (int round = 0; round < 200; ++round) {
-    std::vector<std::pair<q, q>> footprint;
-    q m1(0), m2(0), all(0);
-    for (int i = 0; i < 6; ++i) {
-      const q depth(static_cast<double>(random() % 64) / 64),
-          weight(1 + static_cast<int>(random() % 5));
-      footprint.emplace_back(depth, weight);
-      m1 += weight * depth;
-      m2 += weight * depth * depth;
-      all += weight;
-    }
-    const visibility_function<q> exact(footprint);
-    for (int k = 0; k <= 64; ++k) {
-      const q t(k / 64.0);
-      REQUIRE(chebyshev(mean_and_variance(m1 / all, m2 / all), t, q(0)) >= exact(t));
-    }
-  }
 }
