@@ -1,4 +1,5 @@
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "bitshade/formats/encode.hpp"
@@ -67,7 +68,9 @@ void run_codes(run_context& run, const image<T>& texels, const variance_techniqu
 template <class T>
 void run_sums(run_context& run, image<T> texels, const variance_technique<T>& technique) {
   const double most = decode(run.storage.format, max_bits(run.storage.format));
-  if (!sat_fits(texels.width, texels.height, 1.0, most)) {
+  try {
+    require_sat_fits(texels.width, texels.height, 1.0, most);
+  } catch (const std::invalid_argument&) {
     throw usage_error("a summed-area table of " + std::to_string(texels.width) + " x " +
                       std::to_string(texels.height) + " texels overflows " + run.how.format +
                       ": ask for a smaller --size, or a format of wider range such as binary32");
