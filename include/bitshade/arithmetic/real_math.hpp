@@ -59,7 +59,7 @@ constexpr double modulo(double x, double y, bool nearest) {
 // One line a function; the work is done in elementary::.
 #define BITSHADE_REAL template <class F, rules R, class C> constexpr real<F, R, C>
 #define BITSHADE_FUNCTION(name) \
-  BITSHADE_REAL name(const real<F, R, C>& x) { return real<F, R, C>::from_exact(elementary::name(x.operand())); }
+  BITSHADE_REAL name(real<F, R, C> x) { return real<F, R, C>::from_exact(elementary::name(x.operand())); }
 BITSHADE_FUNCTION(exp)
 BITSHADE_FUNCTION(exp2)
 BITSHADE_FUNCTION(expm1)
@@ -82,15 +82,19 @@ BITSHADE_FUNCTION(acosh)
 BITSHADE_FUNCTION(atanh)
 #undef BITSHADE_FUNCTION
 
+/// sqrt and abs are friends that only lookup by argument finds; these a qualified call finds as well.
+BITSHADE_REAL square_root_of(real<F, R, C> x) { return sqrt(x); }
+BITSHADE_REAL magnitude_of(real<F, R, C> x) { return abs(x); }
+
 // std::type_identity_t lets the second argument be a float or an int, as it may for float.
-BITSHADE_REAL pow(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+BITSHADE_REAL pow(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   return real<F, R, C>::from_exact(elementary::pow(x.operand(), y.operand()));
 }
-BITSHADE_REAL atan2(const real<F, R, C>& y, const std::type_identity_t<real<F, R, C>>& x) {
+BITSHADE_REAL atan2(real<F, R, C> y, std::type_identity_t<real<F, R, C>> x) {
   return real<F, R, C>::from_exact(elementary::atan2(y.operand(), x.operand()));
 }
 /// sqrt(x^2 + y^2) without overflow or underflow on the way, rounded once.
-BITSHADE_REAL hypot(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+BITSHADE_REAL hypot(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   exact_result a = unpack(x.operand()), b = unpack(y.operand());
   using kind = exact_result::kind;
   if (a.what == kind::infinite || b.what == kind::infinite)
@@ -105,77 +109,77 @@ BITSHADE_REAL hypot(const real<F, R, C>& x, const std::type_identity_t<real<F, R
   return real<F, R, C>::from_exact(result);
 }
 
-BITSHADE_REAL floor(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::down); }
-BITSHADE_REAL ceil(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::up); }
-BITSHADE_REAL trunc(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::toward_zero); }
-BITSHADE_REAL round(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::nearest_away); }
-BITSHADE_REAL rint(const real<F, R, C>& x) { return detail::integral(x.operand(), rounding::nearest_even); }
-BITSHADE_REAL nearbyint(const real<F, R, C>& x) { return rint(x); }
-BITSHADE_REAL fmod(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+BITSHADE_REAL floor(real<F, R, C> x) { return detail::integral(x.operand(), rounding::down); }
+BITSHADE_REAL ceil(real<F, R, C> x) { return detail::integral(x.operand(), rounding::up); }
+BITSHADE_REAL trunc(real<F, R, C> x) { return detail::integral(x.operand(), rounding::toward_zero); }
+BITSHADE_REAL round(real<F, R, C> x) { return detail::integral(x.operand(), rounding::nearest_away); }
+BITSHADE_REAL rint(real<F, R, C> x) { return detail::integral(x.operand(), rounding::nearest_even); }
+BITSHADE_REAL nearbyint(real<F, R, C> x) { return rint(x); }
+BITSHADE_REAL fmod(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   return detail::modulo(x.operand(), y.operand(), false);
 }
-BITSHADE_REAL remainder(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+BITSHADE_REAL remainder(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   return detail::modulo(x.operand(), y.operand(), true);
 }
-BITSHADE_REAL modf(const real<F, R, C>& x, real<F, R, C>* whole) {
+BITSHADE_REAL modf(real<F, R, C> x, real<F, R, C>* whole) {
   *whole = trunc(x);
   return isinf(x) ? copysign(real<F, R, C>(0), x) : copysign(x - *whole, x);
 }
 
-template <class F, rules R, class C> constexpr bool isnan(const real<F, R, C>& x) { return x != x; }
-template <class F, rules R, class C> constexpr bool isfinite(const real<F, R, C>& x) {
+template <class F, rules R, class C> constexpr bool isnan(real<F, R, C> x) { return x != x; }
+template <class F, rules R, class C> constexpr bool isfinite(real<F, R, C> x) {
   return x.carrier() - x.carrier() == 0;
 }
-template <class F, rules R, class C> constexpr bool isinf(const real<F, R, C>& x) { return !isnan(x) && !isfinite(x); }
-template <class F, rules R, class C> constexpr bool isnormal(const real<F, R, C>& x) {
+template <class F, rules R, class C> constexpr bool isinf(real<F, R, C> x) { return !isnan(x) && !isfinite(x); }
+template <class F, rules R, class C> constexpr bool isnormal(real<F, R, C> x) {
   return isfinite(x) && x != real<F, R, C>(0) &&
          (F::value.kind != family::binary || !(abs(x) < real<F, R, C>::from_bits(
               static_cast<typename F::bits_type>(min_normal_bits(F::value)))));
 }
-template <class F, rules R, class C> constexpr bool signbit(const real<F, R, C>& x) {
+template <class F, rules R, class C> constexpr bool signbit(real<F, R, C> x) {
   return (std::bit_cast<std::uint64_t>(static_cast<double>(x.carrier())) >> 63) != 0;
 }
-BITSHADE_REAL copysign(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& sign) {
+BITSHADE_REAL copysign(real<F, R, C> x, std::type_identity_t<real<F, R, C>> sign) {
   return signbit(x) == signbit(sign) ? x : -x;
 }
 
 // As <cmath> has them: a NaN gives way to a number. std::min and std::max work as they are.
-BITSHADE_REAL fmin(const real<F, R, C>& a, const std::type_identity_t<real<F, R, C>>& b) {
+BITSHADE_REAL fmin(real<F, R, C> a, std::type_identity_t<real<F, R, C>> b) {
   return isnan(a) || b < a ? b : a;
 }
-BITSHADE_REAL fmax(const real<F, R, C>& a, const std::type_identity_t<real<F, R, C>>& b) {
+BITSHADE_REAL fmax(real<F, R, C> a, std::type_identity_t<real<F, R, C>> b) {
   return isnan(a) || a < b ? b : a;
 }
-BITSHADE_REAL fdim(const real<F, R, C>& a, const std::type_identity_t<real<F, R, C>>& b) {
+BITSHADE_REAL fdim(real<F, R, C> a, std::type_identity_t<real<F, R, C>> b) {
   return a <= b ? real<F, R, C>(0) : a - b;
 }
 
 /// x 2^n, rounded once.
-BITSHADE_REAL ldexp(const real<F, R, C>& x, int n) {
+BITSHADE_REAL ldexp(real<F, R, C> x, int n) {
   exact_result u = unpack(x.operand());
   if (u.is_finite()) u.exponent += n;
   return real<F, R, C>::from_exact(u);
 }
-BITSHADE_REAL scalbn(const real<F, R, C>& x, int n) { return ldexp(x, n); }
-template <class F, rules R, class C> constexpr int ilogb(const real<F, R, C>& x) {
+BITSHADE_REAL scalbn(real<F, R, C> x, int n) { return ldexp(x, n); }
+template <class F, rules R, class C> constexpr int ilogb(real<F, R, C> x) {
   const exact_result u = unpack(x.operand());
   if (!u.is_finite()) return std::numeric_limits<int>::max();
   return u.n == 0 ? -std::numeric_limits<int>::max() : static_cast<int>(u.exponent) + bit_width(u.n) - 1;
 }
-BITSHADE_REAL logb(const real<F, R, C>& x) {
+BITSHADE_REAL logb(real<F, R, C> x) {
   if (!isfinite(x)) return abs(x);
   if (x == real<F, R, C>(0)) return real<F, R, C>::from_exact(exact_result::infinity(true));
   return ilogb(x);
 }
 /// x = f 2^n with 1/2 <= |f| < 1.
-BITSHADE_REAL frexp(const real<F, R, C>& x, int* n) {
+BITSHADE_REAL frexp(real<F, R, C> x, int* n) {
   *n = 0;
   if (!isfinite(x) || x == real<F, R, C>(0)) return x;
   *n = ilogb(x) + 1;
   return ldexp(x, -*n);
 }
 /// The neighbour of x toward y.
-BITSHADE_REAL nextafter(const real<F, R, C>& x, const std::type_identity_t<real<F, R, C>>& y) {
+BITSHADE_REAL nextafter(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   using T = real<F, R, C>;
   if (isnan(x) || isnan(y)) return T::from_exact(exact_result::nan());
   if (x == y) return y;

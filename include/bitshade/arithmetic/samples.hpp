@@ -1,0 +1,87 @@
+// Stochastic arithmetic: several samples of one computation, rounded at random, tell how many digits it kept.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "bitshade/arithmetic/exponential.hpp"
+#include "bitshade/arithmetic/operations.hpp"
+#include "bitshade/formats/random.hpp"
+
+namespace bitshade {
+
+/// N samples of a number of a format; each operation rounds each of them stochastically.
+///
+/// Policy   the random bits come from the operands' histories and the seed that the inputs were given: the same
+///          expression with the same seed gives the same samples, on any thread.
+/// Source   [Vignes04], [ParkerMCA97].
+template <class Format, std::size_t N = 8>
+class samples {
+  static_assert(N >= 2, "bitshade: one sample has no spread");
+  static constexpr encoding E = Format::value;
+  static constexpr rules R{rounding::stochastic};
+
+ public:
+  /// A number of the format exactly; any other is rounded stochastically as well.
+  constexpr samples(double x = 0, std::uint64_t seed = 0) : history_(mix64(seed ^ std::bit_cast<std::uint64_t>(x))) {
+    for (std::size_t i = 0; i < N; ++i) bits_[i] = encode(E, x, R, random_bits(history_, i));
+  }
+
+  constexpr double sample(std::size_t i) const { return decode(E, bits_[i]); }
+  constexpr double mean() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += sample(i);
+    return sum / static_cast<double>(N);
+  }
+  /// Bits on which the samples agree: log2(|mean| / standard deviation), from 0 to the format's precision.
+  constexpr double significant_bits() const {
+    const double m = mean(), most = E.kind == family::binary ? precision(E) : E.width;
+    double square = 0;
+    for (std::size_t i = 0; i < N; ++i) square += (sample(i) - m) * (sample(i) - m);
+    if (square == 0) return most;
+    // log2 of a ratio of squares, halved: no square root needed.
+    const exact_result l = elementary::log2(m * m / (square / static_cast<double>(N - 1)));
+    const double bits = decode(binary_encoding(11, 52), round_result(binary_encoding(11, 52), l, {})) / 2;
+    return !(bits > 0) ? 0 : bits < most ? bits : most;
+  }
+
+  friend constexpr samples operator+(const samples& a, const samples& b) {
+    return apply([](auto x, auto y, std::uint64_t r) { return add(E, x, y, R, r); }, 1, a, b);
+  }
+  friend constexpr samples operator-(const samples& a, const samples& b) {
+    return apply([](auto x, auto y, std::uint64_t r) { return subtract(E, x, y, R, r); }, 2, a, b);
+  }
+  friend constexpr samples operator*(const samples& a, const samples& b) {
+    return apply([](auto x, auto y, std::uint64_t r) { return multiply(E, x, y, R, r); }, 3, a, b);
+  }
+  friend constexpr samples operator/(const samples& a, const samples& b) {
+    return apply([](auto x, auto y, std::uint64_t r) { return divide(E, x, y, R, r); }, 4, a, b);
+  }
+  friend constexpr samples sqrt(const samples& a) {
+    return apply([](auto x, auto, std::uint64_t r) { return square_root(E, x, R, r); }, 5, a, a);
+  }
+  friend constexpr samples operator-(const samples& a) { return samples() - a; }
+  constexpr samples& operator+=(const samples& b) { return *this = *this + b; }
+  constexpr samples& operator-=(const samples& b) { return *this = *this - b; }
+  constexpr samples& operator*=(const samples& b) { return *this = *this * b; }
+  constexpr samples& operator/=(const samples& b) { return *this = *this / b; }
+  // Order is the means'.
+  friend constexpr bool operator<(const samples& a, const samples& b) { return a.mean() < b.mean(); }
+  friend constexpr bool operator>(const samples& a, const samples& b) { return b < a; }
+  friend constexpr bool operator<=(const samples& a, const samples& b) { return !(b < a); }
+  friend constexpr bool operator>=(const samples& a, const samples& b) { return !(a < b); }
+
+ private:
+  template <class Operation>
+  static constexpr samples apply(Operation operation, std::uint64_t which, const samples& a, const samples& b) {
+    samples r;
+    r.history_ = mix64(a.history_ + mix64(b.history_ + which));
+    for (std::size_t i = 0; i < N; ++i) r.bits_[i] = operation(a.bits_[i], b.bits_[i], random_bits(r.history_, i));
+    return r;
+  }
+
+  std::array<std::uint64_t, N> bits_{};
+  std::uint64_t history_ = 0;
+};
+
+}  // namespace bitshade
