@@ -3,8 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <memory>
-#include <vector>
+#include <string>
 
 #include "bitshade/arithmetic/bulk.hpp"
 #include "bitshade/formats/name.hpp"
@@ -12,6 +11,7 @@
 #include "bitshade/formats/round_to.hpp"
 #include "peers/peers.hpp"
 #include "raw/loops.hpp"
+#include "support/inputs.hpp"
 #include "support/table.hpp"
 
 namespace {
@@ -22,27 +22,19 @@ using bulk::instruction_set;
 constexpr std::size_t in_cache = 16384;  // 64 KiB in, 64 KiB out: the second level
 constexpr std::size_t in_memory = std::size_t{1} << 24;
 
-/// 64-byte aligned, so that every contestant meets the same cache lines.
-struct array {
-  explicit array(std::size_t n) : size(n), owner(static_cast<float*>(std::aligned_alloc(64, 4 * n)), &std::free) {}
-  std::size_t size;
-  std::unique_ptr<float, decltype(&std::free)> owner;
-  float* data = owner.get();
-  std::span<float> span() const { return {data, size}; }
-};
-using shared = std::shared_ptr<array>;
+using shared = bench::shared<float>;
 
 double uniform(std::uint64_t counter) { return static_cast<double>(random_bits(1, counter) >> 11) * 0x1p-53; }
 
 /// [0, 1), as depths are.
 shared unit_inputs(std::size_t n) {
-  auto a = std::make_shared<array>(n);
+  auto a = bench::make_array<float>(n);
   for (std::size_t j = 0; j < n; ++j) a->data[j] = static_cast<float>(uniform(j));
   return a;
 }
 /// Every exponent of a format, two below its subnormals and two above its largest, both signs.
 shared range_inputs(const encoding& e, std::size_t n) {
-  auto a = std::make_shared<array>(n);
+  auto a = bench::make_array<float>(n);
   const bool binary = e.kind == family::binary;
   const int low = binary ? std::max(min_ulp_exponent(e) - 2, -149) : -20, high = binary ? std::min(bias(e) + 2, 127) : 2;
   for (std::size_t j = 0; j < n; ++j) {
@@ -71,7 +63,7 @@ struct maker {
 
   void peer(const std::string& group, const std::string& name, peers::rounder f, const shared& in, const encoding* e,
             std::size_t checked, const std::string& base = {}) const {
-    auto out = std::make_shared<array>(in->size);
+    auto out = bench::make_array<float>(in->size);
     bench::row r{group, name, in->size, [=] { f(in->data, out->data, in->size); }, {}, base, 0};
     if (e) r.check = [=] {
       f(in->data, out->data, in->size);
@@ -83,7 +75,7 @@ struct maker {
   void ours(const std::string& group, const std::string& name, const encoding& e, const rules& r, instruction_set set,
             const shared& in, const std::string& base, double limit) const {
     if (!bulk::has(set)) return;
-    auto out = std::make_shared<array>(in->size);
+    auto out = bench::make_array<float>(in->size);
     const auto work = [=] { bulk::round(e, r, in->span(), out->span(), {.set = set}); };
     table.add({group, name + ", " + name_of_set(set), in->size, work,
                [=] { work(); return difference(in->data, out->data, std::min(in->size, in_cache), e, r); }, base,

@@ -22,3 +22,10 @@ file(GLOB bench_avx512_sources CONFIGURE_DEPENDS raw/*_avx512.cpp)
 set_source_files_properties(${bench_avx2_sources} peers/float16.cpp peers/imath.cpp peers/eigen.cpp
   PROPERTIES COMPILE_OPTIONS "${bench_avx2}")
 set_source_files_properties(${bench_avx512_sources} PROPERTIES COMPILE_OPTIONS "${bench_avx512}")
+
+# real<...> in a consumer's program: the whole program has one set of flags.
+foreach(set avx2 avx512)
+  add_executable(bench_arithmetic_${set} arithmetic/arithmetic.cpp)
+  target_compile_options(bench_arithmetic_${set} PRIVATE ${bench_${set}})
+  target_link_libraries(bench_arithmetic_${set} PRIVATE bitshade_bulk bench_support bitshade_warnings)
+endforeach()

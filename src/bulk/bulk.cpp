@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <thread>
 #include <type_traits>
-#include <vector>
 
 #include "bitshade/formats/random.hpp"
 #include "bitshade/formats/round_to.hpp"
+#include "bulk/dispatch.hpp"
 #include "bulk/float_environment.hpp"
 #include "bulk/make_plan.hpp"
 
@@ -112,15 +111,7 @@ void work(const encoding& e, const rules& r, std::span<const In> in, std::span<O
   if (What != operation::round && e.width > code_bits) {
     throw std::invalid_argument("bitshade::bulk: the encoding is wider than its codes' type");
   }
-  if (!has(how.set)) throw std::invalid_argument("bitshade::bulk: this processor lacks that instruction set");
-  instruction_set set = how.set;
-  if (set == instruction_set::best) {
-    static const instruction_set widest = has(instruction_set::avx512)     ? instruction_set::avx512
-                                          : has(instruction_set::avx2)     ? instruction_set::avx2
-                                          : has(instruction_set::baseline) ? instruction_set::baseline
-                                                                           : instruction_set::scalar;
-    set = widest;
-  }
+  const instruction_set set = resolve(how.set);
   constexpr request wanted{What, letter_of<In>(), letter_of<Out>()};
   plan p;
   chosen direct = choose_native(e, r, wanted, set);
@@ -129,41 +120,17 @@ void work(const encoding& e, const rules& r, std::span<const In> in, std::span<O
     p.define = define<What, In, Out>;
     direct = choose(p, wanted, set);
   }
-  // Whole cache lines of the narrowest type for each thread, and enough work to be worth its start.
-  constexpr std::size_t grain = std::size_t{1} << 14;
-  const std::size_t workers = std::min<std::size_t>(std::max(1u, how.threads), (in.size() + grain - 1) / grain);
-  if (workers <= 1) return run<What>(p, direct, in.data(), out.data(), in.size(), set);
-  const std::size_t share = (in.size() / workers + 63) / 64 * 64;
-  std::vector<std::jthread> threads;
-  threads.reserve(workers);
-  for (std::size_t begin = 0; begin < in.size(); begin += share) {
+  in_chunks(in.size(), how.threads, [&](std::size_t begin, std::size_t n) {
+    if (begin == 0 || r.direction != rounding::stochastic) {
+      return run<What>(p, direct, in.data() + begin, out.data() + begin, n, set);
+    }
     plan part = p;
-    if (r.direction == rounding::stochastic) advance(part, begin);
-    const std::size_t n = std::min(share, in.size() - begin);
-    threads.emplace_back([=] { run<What>(part, direct, in.data() + begin, out.data() + begin, n, set); });
-  }
+    advance(part, begin);
+    run<What>(part, direct, in.data() + begin, out.data() + begin, n, set);
+  });
 }
 
 }  // namespace
-
-bool has(instruction_set set) {
-  switch (set) {
-    case instruction_set::best:
-    case instruction_set::scalar: return true;
-#if defined(BITSHADE_X86_64)
-    case instruction_set::baseline: return true;
-    case instruction_set::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
-    case instruction_set::avx512:
-      return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-             __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-             __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
-#else
-    default: return false;
-#endif
-  }
-  return false;
-}
 
 void round(const encoding& to, const rules& r, std::span<const float> in, std::span<float> out,
            const execution& how) {

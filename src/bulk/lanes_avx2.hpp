@@ -58,6 +58,17 @@ struct lanes32 {
   static f sqrt(f a) { return _mm256_sqrt_ps(a); }
   static f fma(f a, f b, f c) { return _mm256_fmadd_ps(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm256_fnmadd_ps(a, b, c); }
+  /// a + b to odd: where inexact, the odd one of the two neighbours. The error of the sum to nearest says whether
+  /// and on which side.
+  static f add_to_odd(f a, f b) {
+    const f sum = add(a, b);
+    const f back = sub(sum, a);
+    const f error = add(sub(a, sub(sum, back)), sub(b, back));
+    const i inexact = bits(_mm256_cmp_ps(error, _mm256_setzero_ps(), _CMP_NEQ_OQ));
+    const i step = and_(inexact, _mm256_andnot_si256(bits(sum), all_bits(1)));
+    const i opposite = spread_sign(xor_(bits(error), bits(sum)));
+    return value(iadd(bits(sum), isub(xor_(step, opposite), opposite)));
+  }
   static f max(f a, f b) { return _mm256_max_ps(a, b); }
   static f min(f a, f b) { return _mm256_min_ps(a, b); }
 

@@ -36,6 +36,12 @@ struct lanes32 {
   static f sqrt(f a) { return _mm512_sqrt_ps(a); }
   static f fma(f a, f b, f c) { return _mm512_fmadd_ps(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm512_fnmadd_ps(a, b, c); }
+  /// a + b to odd: where inexact, the odd one of the two neighbours.
+  static f add_to_odd(f a, f b) {
+    const f below = _mm512_add_round_ps(a, b, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    const f above = _mm512_add_round_ps(a, b, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+    return _mm512_mask_blend_ps(_mm512_test_epi32_mask(bits(below), all_bits(1)), above, below);
+  }
   // As MAXPS and MINPS: the second operand where either is NaN.
   static f max(f a, f b) { return _mm512_max_ps(a, b); }
   static f min(f a, f b) { return _mm512_min_ps(a, b); }

@@ -75,4 +75,19 @@ void decode(const encoding& from, const rules& r, std::span<const std::uint32_t>
 void decode(const encoding& from, const rules& r, std::span<const std::uint64_t> in, std::span<double> out,
             const execution& how = {});
 
+/// Arithmetic on binary16 codes, each result the exact one rounded once to nearest even; every NaN
+/// is the positive one with an empty payload, as in operations.hpp.
+///
+/// Shapes   equal sizes; `out` may be one of the operands.
+/// Error    none beyond the one rounding, fma included: binary32 carries the others [Figueroa95], and the fma's sum
+///          is rounded to odd before it is rounded to half [BoldoMelquiond08].
+/// Failure  std::invalid_argument for sizes that differ or an instruction set that this processor lacks.
+using half_codes = std::span<const std::uint16_t>;
+void add(half_codes a, half_codes b, std::span<std::uint16_t> out, const execution& how = {});
+void subtract(half_codes a, half_codes b, std::span<std::uint16_t> out, const execution& how = {});
+void multiply(half_codes a, half_codes b, std::span<std::uint16_t> out, const execution& how = {});
+void divide(half_codes a, half_codes b, std::span<std::uint16_t> out, const execution& how = {});
+void sqrt(half_codes a, std::span<std::uint16_t> out, const execution& how = {});
+void fma(half_codes a, half_codes b, half_codes c, std::span<std::uint16_t> out, const execution& how = {});
+
 }  // namespace bitshade::bulk

@@ -119,7 +119,11 @@ struct scalar_carrier {
 #if defined(__F16C__)
     if constexpr (std::is_same_v<T, float> && E == binary_encoding(5, 10) && R.direction == rounding::nearest_even &&
                   R.subnormal == subnormals::preserve && R.overflow != overflow::saturate) {
-      if (!std::is_constant_evaluated()) return _cvtsh_ss(_cvtss_sh(x, _MM_FROUND_TO_NEAREST_INT));
+      // Compilers fold the integer way of a constant, but not the instruction.
+      // In vector registers all the way: the scalar intrinsics pass the code through an integer one.
+      if (!std::is_constant_evaluated() && !__builtin_constant_p(x)) {
+        return _mm_cvtss_f32(_mm_cvtph_ps(_mm_cvtps_ph(_mm_set_ss(x), _MM_FROUND_TO_NEAREST_INT)));
+      }
     }
 #endif
     if constexpr (E == shape && R.direction == rounding::nearest_even && R.overflow != overflow::saturate &&

@@ -72,8 +72,10 @@ class real {
   explicit(!contains(Format::value, F::value)) constexpr real(real<F, S, C> x)
       : value_(traits::broadcast(from_floating(static_cast<double>(x.carrier())))) {}
 
+  // Always inline: over a pack an operation that is called passes its operands through memory.
+
   /// The lanes of a carrier, each rounded.
-  static constexpr real from_carrier(Carrier x) { return make(traits::template round<E, R>(x)); }
+  [[gnu::always_inline]] static constexpr real from_carrier(Carrier x) { return make(traits::template round<E, R>(x)); }
   static constexpr real from_bits(bits_type bits) {
     return make(traits::broadcast(static_cast<scalar>(decode(E, bits))));
   }
@@ -103,19 +105,19 @@ class real {
     return static_cast<T>(value_);
   }
 
-  friend constexpr real operator+(const real& a, const real& b) {
+  [[gnu::always_inline]] friend constexpr real operator+(const real& a, const real& b) {
     if constexpr (direct) return from_carrier(a.value_ + b.value_);
     else return by_bits([](auto x, auto y) { return add(E, x, y, R); }, a, b);
   }
-  friend constexpr real operator-(const real& a, const real& b) {
+  [[gnu::always_inline]] friend constexpr real operator-(const real& a, const real& b) {
     if constexpr (direct) return from_carrier(a.value_ - b.value_);
     else return by_bits([](auto x, auto y) { return subtract(E, x, y, R); }, a, b);
   }
-  friend constexpr real operator*(const real& a, const real& b) {
+  [[gnu::always_inline]] friend constexpr real operator*(const real& a, const real& b) {
     if constexpr (direct) return from_carrier(a.value_ * b.value_);
     else return by_bits([](auto x, auto y) { return multiply(E, x, y, R); }, a, b);
   }
-  friend constexpr real operator/(const real& a, const real& b) {
+  [[gnu::always_inline]] friend constexpr real operator/(const real& a, const real& b) {
     if constexpr (direct) {
       if constexpr (traits::lanes == 1) {
         // Division by zero is no constant expression in the carrier.
@@ -126,12 +128,12 @@ class real {
       return by_bits([](auto x, auto y) { return divide(E, x, y, R); }, a, b);
     }
   }
-  friend constexpr real sqrt(const real& a) {
+  [[gnu::always_inline]] friend constexpr real sqrt(const real& a) {
     if constexpr (direct) return from_carrier(traits::sqrt(a.value_));
     else return by_bits([](auto x) { return square_root(E, x, R); }, a);
   }
   /// a b + c, rounded once: its own, since a carrier's fma rounds twice.
-  friend constexpr real fma(const real& a, const real& b, const real& c) {
+  [[gnu::always_inline]] friend constexpr real fma(const real& a, const real& b, const real& c) {
     if constexpr (direct_fma) return make(traits::template fused<E, R>(a.value_, b.value_, c.value_));
     else return by_bits([](auto x, auto y, auto z) { return fused_multiply_add(E, x, y, z, R); }, a, b, c);
   }
@@ -159,16 +161,16 @@ class real {
     return old;
   }
 
-  friend constexpr mask_type operator==(const real& a, const real& b) { return a.value_ == b.value_; }
-  friend constexpr mask_type operator!=(const real& a, const real& b) { return a.value_ != b.value_; }
-  friend constexpr mask_type operator<(const real& a, const real& b) { return a.value_ < b.value_; }
-  friend constexpr mask_type operator<=(const real& a, const real& b) { return a.value_ <= b.value_; }
-  friend constexpr mask_type operator>(const real& a, const real& b) { return a.value_ > b.value_; }
-  friend constexpr mask_type operator>=(const real& a, const real& b) { return a.value_ >= b.value_; }
+  [[gnu::always_inline]] friend constexpr mask_type operator==(const real& a, const real& b) { return a.value_ == b.value_; }
+  [[gnu::always_inline]] friend constexpr mask_type operator!=(const real& a, const real& b) { return a.value_ != b.value_; }
+  [[gnu::always_inline]] friend constexpr mask_type operator<(const real& a, const real& b) { return a.value_ < b.value_; }
+  [[gnu::always_inline]] friend constexpr mask_type operator<=(const real& a, const real& b) { return a.value_ <= b.value_; }
+  [[gnu::always_inline]] friend constexpr mask_type operator>(const real& a, const real& b) { return a.value_ > b.value_; }
+  [[gnu::always_inline]] friend constexpr mask_type operator>=(const real& a, const real& b) { return a.value_ >= b.value_; }
 
   friend constexpr real abs(const real& a) { return make(traits::abs(a.value_)); }
   friend constexpr real fabs(const real& a) { return abs(a); }
-  friend constexpr real select(mask_type m, const real& a, const real& b) {
+  [[gnu::always_inline]] friend constexpr real select(mask_type m, const real& a, const real& b) {
     if constexpr (traits::lanes == 1) return m ? a : b;
     else return make(select(m, a.value_, b.value_));
   }
@@ -177,7 +179,7 @@ class real {
   /// The value is one of E's: no direction may move it, and infinity is not an overflow.
   static constexpr rules code_rules{};
 
-  static constexpr real make(Carrier x) {
+  [[gnu::always_inline]] static constexpr real make(Carrier x) {
     real r;
     r.value_ = x;
     return r;
@@ -208,6 +210,8 @@ class real {
   }
   template <class T>
   static constexpr scalar from_integer(T x) {
+    // Exact in binary64, and short enough for compilers to fold.
+    if constexpr (sizeof(T) <= 4) return from_floating(static_cast<double>(x));
     const bool negative = x < 0;
     const auto wide = static_cast<std::uint64_t>(x);
     const std::uint64_t bits = encode_scaled(E, negative, negative ? ~wide + 1 : wide, 0, false, R, 0);
