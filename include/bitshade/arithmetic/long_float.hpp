@@ -101,7 +101,7 @@ constexpr long_float root(const long_float& x) {
   return {false, r.n, r.exponent};
 }
 
-// The leading bits of constants; tests/unit/arithmetic/long_float.cpp derives them anew from MPFR.
+// The leading bits of constants; tests/exhaustive/arithmetic/elementary.cpp holds what they give against MPFR.
 inline constexpr long_float long_half_pi{false, (uint128{0xc90fdaa22168c234} << 64) | 0xc4c6628b80dc1cd1, -127};
 inline constexpr long_float long_ln2{false, (uint128{0xb17217f7d1cf79ab} << 64) | 0xc9e3b39803f2f6af, -128};
 inline constexpr long_float long_ln10{false, (uint128{0x935d8dddaaa8ac16} << 64) | 0xea56d62b82d30a28, -126};

@@ -25,7 +25,7 @@ enum class specials : std::uint8_t {
 ///   ufixed   c / 2^F                                           fraction_bits F, width I + F
 ///   fixed    c / 2^F, two's complement                         the same, I counts the sign
 ///
-/// Source   [IEEE754-2019] 3.4, [Vulkan] "fixed-point", [OCPFP8].
+/// Source   [IEEE754] 3.4, [Vulkan] "fixed-point", [OFP8].
 struct encoding {
   family kind = family::binary;
   int exponent_bits = 0;
