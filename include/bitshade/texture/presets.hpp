@@ -48,7 +48,7 @@ constexpr filter_model d3d11() {
 constexpr filter_model vulkan_strict() {
   filter_model m;
   m.name = "vulkan-strict";
-  m.source = "Vulkan, VKCTS";
+  m.source = "Vulkan, CTS";
   m.grid_bits = 8;
   m.grid_snap = snap::floor;
   m.mip_bits = 6;

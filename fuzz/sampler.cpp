@@ -1,0 +1,70 @@
+// Every preset on any bits: no read outside, results in range, exact against fast exact.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+#include "bitshade/interop/rational.hpp"
+#include "bitshade/texture/device_sampler.hpp"
+#include "bitshade/texture/exact_sampler.hpp"
+
+namespace {
+
+/// Takes numbers from the front of the input, zeros when it is used up.
+struct reader {
+  const std::uint8_t* data;
+  std::size_t size;
+  template <class T>
+  T take() {
+    T value{};
+    const std::size_t n = std::min(size, sizeof value);
+    std::memcpy(&value, data, n);
+    data += n;
+    size -= n;
+    return value;
+  }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace bitshade;
+  reader in{data, size};
+  const filter_model& model = presets[in.take<std::uint8_t>() % presets.size()];
+  const int bits = model.order == accumulation::lerp_codes ? 8 : 16;
+  const texel_format format = uniform_format(unorm_encoding(bits), 1);
+  const int w = 1 + in.take<std::uint8_t>() % 17, h = 1 + in.take<std::uint8_t>() % 17;
+  sampler_state state;
+  state.u = state.v = static_cast<address>(in.take<std::uint8_t>() % 4);
+  state.mips = in.take<std::uint8_t>() % 2 == 0 ? mip_selection::none : mip_selection::linear;
+  state.max_anisotropy = 1 + in.take<std::uint8_t>() % 16;
+  const auto u = in.take<float>(), v = in.take<float>(), lod = in.take<float>();
+  // Derivatives that ask for more texels than a test should wait for are folded back.
+  const auto derivative = [&] {
+    const auto d = in.take<float>();
+    return std::isfinite(d) ? std::fmod(static_cast<double>(d), 4.0) : 0.0;
+  };
+  const gradients g{derivative(), derivative(), derivative(), derivative()};
+  std::vector<coded_image> chain;
+  for (int l = 0; l < mip_levels(w, h); ++l) {
+    coded_image level(mip_size(w, l), mip_size(h, l), 1);
+    for (auto& t : level.texels) t = in.take<std::uint16_t>() & low_bits(bits);
+    chain.push_back(std::move(level));
+  }
+  const device_sampler sampler(model, format, chain, state);
+  // 16 probes' weights and sums, or an ellipse's: a constant 1 comes back within 2^-15.
+  for (const float result : {sampler.lod(u, v, lod, 0), sampler.gradient(u, v, g, 0)})
+    if (std::isfinite(u) && std::isfinite(v) && !(result >= -0x1p-15f && result <= 1 + 0x1p-15f))
+      std::abort();
+
+  if (std::isfinite(u) && std::isfinite(v) && std::fabs(u) < 0x1p20f && std::fabs(v) < 0x1p20f) {
+    const exact_sampler<exact_rational> exact(format, chain, state);
+    const double level = std::isfinite(lod) ? lod : 0;
+    if (exact.lod(u, v, level, 0) != exact.rational<float>({0, {{0, 0}}}, u, v, level, 0))
+      std::abort();
+  }
+  return 0;
+}
