@@ -1,5 +1,6 @@
 // `bitshade study`: techniques x formats x layers on a scene, a mesh or a captured depth map.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -25,10 +26,31 @@ struct options {
   std::shared_ptr<scene_options> scene;
   std::shared_ptr<study_options> cells;
   std::string out = "bitshade-out";
+  std::string shard;  ///< "i/n": every n-th cell, from the i-th on
   bool verify_plan = false, json = false;
   std::string arguments;         ///< as given, but for the scenes
   std::string shared_arguments;  ///< those without the lists, which a single cell does not share
 };
+
+/// The cells that a shard computes: every n-th, from the i-th on.
+std::vector<configuration> shard_of(std::vector<configuration> cells, const std::string& shard) {
+  if (shard.empty()) return cells;
+  const std::size_t slash = shard.find('/');
+  std::size_t i = 0, n = 0;
+  const auto read = [&](std::size_t from, std::size_t to, std::size_t& value) {
+    const auto [end, error] = std::from_chars(shard.data() + from, shard.data() + to, value);
+    return error == std::errc() && end == shard.data() + to;
+  };
+  if (slash == std::string::npos || !read(0, slash, i) || !read(slash + 1, shard.size(), n) ||
+      i < 1 || i > n)
+    throw usage_error("--shard takes I/N with I from 1 to N, such as 1/4, but not '" + shard + "'");
+  std::vector<configuration> ours;
+  for (std::size_t k = i - 1; k < cells.size(); k += n) ours.push_back(std::move(cells[k]));
+  if (ours.empty())
+    throw usage_error("--shard " + shard + " has nothing to do: there are only " +
+                      std::to_string(cells.size()) + " cells");
+  return ours;
+}
 
 /// What heads the input in reports: sizes, and where its depths lie.
 std::string describe(const frame& input) {
@@ -78,7 +100,7 @@ void print(const report_section& s, const study_result& result, bool verified) {
 
 void study(const options& given) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<configuration> cells = given.cells->cells();
+  const std::vector<configuration> cells = shard_of(given.cells->cells(), given.shard);
   std::vector<frame> frames;
   std::string command = "bitshade study";
   for (const std::string& name : given.scenes) {
@@ -159,6 +181,9 @@ void add_study(CLI::App& app) {
   command->add_option("--out", given->out, "Folder for the results")
       ->capture_default_str()
       ->option_text("DIR");
+  command
+      ->add_option("--shard", given->shard, "Part I of N of the cells; 'bitshade merge' joins them")
+      ->option_text("I/N");
   command->add_flag("--verify-plan", given->verify_plan,
                     "Run every effect as well, and demand the same bits");
   command->add_flag("--json", given->json, "Print JSON instead of tables");
@@ -171,8 +196,8 @@ void add_study(CLI::App& app) {
   command->callback([given, command] {
     if (given->scenes.empty()) given->scenes.push_back("garden");
     given->arguments = arguments_of(*command, {"json", "verify-plan", "threads", "out"});
-    given->shared_arguments = arguments_of(
-        *command, {"json", "verify-plan", "threads", "out", "techniques", "formats", "layers"});
+    given->shared_arguments = arguments_of(*command, {"json", "verify-plan", "threads", "out",
+                                                      "shard", "techniques", "formats", "layers"});
     study(*given);
   });
 }

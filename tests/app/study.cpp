@@ -182,6 +182,35 @@ TEST_CASE("render draws one configuration, and plan says what it needs", "[app]"
   }
 }
 
+TEST_CASE("shards computed apart and merged are the whole study", "[app]") {
+  const temporary_folder folder;
+  const auto sorted = [](json rows) {
+    std::sort(rows.begin(), rows.end(),
+              [](const json& a, const json& b) { return a.at("key") < b.at("key"); });
+    return rows;
+  };
+  const std::vector<std::string> study = with(small, {"--layers", "2", "--json"});
+  const json whole = rows_of(run_bitshade(with(study, {"--out", (folder / "whole").string()})));
+  REQUIRE(whole.size() == 8);
+  std::size_t parts = 0;
+  for (const char* shard : {"1/3", "2/3", "3/3"}) {
+    const std::string out = (folder / ("part" + std::string(shard, 1))).string();
+    parts += rows_of(run_bitshade(with(study, {"--shard", shard, "--out", out}))).size();
+  }
+  CHECK(parts == 8);
+  const std::vector<std::string> merge{"merge",
+                                       (folder / "part1").string(),
+                                       (folder / "part2").string(),
+                                       (folder / "part3").string(),
+                                       "--json",
+                                       "--out",
+                                       (folder / "all").string()};
+  CHECK(sorted(rows_of(run_bitshade(merge))) == sorted(whole));
+  CHECK(sorted(rows_of(run_bitshade(merge))) == sorted(whole));  // twice changes nothing
+  CHECK(run_bitshade({"study", "--shard", "4/3"}).status == 2);
+  CHECK(run_bitshade({"merge", (folder / "nothing").string()}).status == 1);
+}
+
 TEST_CASE("a reader that leaves and a full device are told apart", "[app]") {
   const temporary_folder folder;
   run_options full;
