@@ -25,6 +25,12 @@ void run_depth_native(run_context& run);     ///< hard, pcf in binary32 or binar
 void run_depth_exact(run_context& run);      ///< hard, pcf without rounding
 
 void run_exponential_native(run_context& run);  ///< evsm2, evsm4, esm
+void run_evsm_exact(run_context& run);          ///< evsm2, evsm4 in certified enclosures
+void run_esm_exact(run_context& run);
+void run_csm_native(run_context& run);
+void run_csm_exact(run_context& run);
+void run_msm_native(run_context& run);
+void run_msm_exact(run_context& run);
 
 void run_summed_area_native(run_context& run);  ///< savsm
 void run_summed_area_exact(run_context& run);   ///< savsm in integers of proven width

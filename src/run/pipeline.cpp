@@ -33,14 +33,20 @@ run_function function_of(const configuration& how) {
       return how.exact() ? run_summed_area_exact : run_summed_area_native;
     case technique::evsm2:
     case technique::evsm4:
+    case technique::evsm2:
+    case technique::evsm4:
+      return how.exact() ? run_evsm_exact : run_exponential_native;
     case technique::esm:
-      if (!how.exact()) return run_exponential_native;
-      break;
+      return how.exact() ? run_esm_exact : run_exponential_native;
+    case technique::csm:
+      return how.exact() ? run_csm_exact : run_csm_native;
+    case technique::msm:
+      return how.exact() ? run_msm_exact : run_msm_native;
     default:
       break;
   }
   throw usage_error("technique " + std::string(name_of(how.method)) +
-                    " is not part of this build: use one of hard, pcf, vsm, lvsm");
+                    " is not part of this build: use another than it");
 }
 
 }  // namespace

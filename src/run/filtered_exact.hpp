@@ -1,0 +1,301 @@
+// Techniques that filter functions of a depth, without rounding: certified enclosures of what they
+// store, filtered and shaded until each receiver's binary64 is decided.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bitshade/shadow/certified.hpp"
+#include "bitshade/shadow/chebyshev.hpp"
+#include "bitshade/shadow/moments.hpp"
+#include "bitshade/texture/blur.hpp"
+#include "bitshade/texture/mip.hpp"
+#include "run/engines.hpp"
+#include "run/exact_grid.hpp"
+#include "run/parallel.hpp"
+
+namespace bitshade {
+
+/// Limbs of the first attempt, over the whole map, and of the further ones, each over the footprint
+/// of a receiver that the one before left undecided. The last holds the products of four moments of
+/// common depths without a rounding, so that singular matrices are seen to be.
+inline constexpr std::size_t first_limbs = 3;
+inline constexpr std::size_t second_limbs = 8;
+inline constexpr std::size_t last_limbs = 28;
+
+/// A texel of a lookup with its exact weight: `share` of 2^-8 times `part` of 2^-48.
+struct exact_texel {
+  int level, x, y;
+  std::uint64_t part;
+  std::uint64_t share;
+};
+
+/// Technique: a Map as in texel_technique.hpp. One with
+///
+///   std::optional<double> flat_light(double x, double t) const;
+///
+/// decides itself where all texels of a footprint are x: what enclosures of e^x cannot.
+template <class Technique>
+class filtered_exact {
+ public:
+  filtered_exact(run_context& run, const Technique& technique)
+      : run_(run), technique_(technique), blur_(blur_of(run.how)) {}
+
+  /// Planes of one channel each, so that a pass needs one plane beside them.
+  void generate() {
+    using number = ball<first_limbs>;
+    const stopwatch watch(run_.result.map_seconds);
+    const image<float>& depth = run_.scene.depth;
+    const std::size_t channels = technique_.channels();
+    chains_.assign(channels, {});
+    for (auto& chain : chains_) chain.emplace_back(depth.width, depth.height);
+    for_rows(run_.threads, depth.height, [&](int y) {
+      std::vector<number> texel(channels);
+      for (int x = 0; x < depth.width; ++x) {
+        if (x == 0 || depth.at(x, y) != depth.at(x - 1, y)) {
+          technique_.template texel<number>(number(clamp_depth(depth.at(x, y))), texel);
+        }
+        for (std::size_t c = 0; c < channels; ++c) chains_[c].front().at(x, y) = texel[c];
+      }
+    });
+    image<number> across(depth.width, depth.height);
+    for (auto& chain : chains_) {
+      if (blur_.weights.size() > 1) {
+        for_rows(run_.threads, depth.height, [&](int y) {
+          blur_row_x<number>(chain.front(), blur_, map_address, y, across.row(y));
+        });
+        for_rows(run_.threads, depth.height, [&](int y) {
+          blur_row_y<number>(across, blur_, map_address, y, chain.front().row(y));
+        });
+      }
+      if (!run_.look.mips) continue;
+      const int levels = mip_levels(depth.width, depth.height);
+      for (int level = 1; level < levels; ++level) {
+        image<number> next(mip_size(depth.width, level), mip_size(depth.height, level));
+        const image<number>& from = chain.back();
+        for_rows(run_.threads, next.height,
+                 [&](int y) { downsample_row<number>(from, map_mips, y, next.row(y)); });
+        chain.push_back(std::move(next));
+      }
+    }
+  }
+
+  void shade() {
+    const stopwatch watch(run_.result.shade_seconds);
+    const auto& receivers = run_.scene.receivers;
+    auto& visibility = run_.result.visibility;
+    visibility.assign(receivers.size(), std::numeric_limits<double>::quiet_NaN());
+    std::atomic<std::size_t> undecided = 0;
+    for_ranges(run_.threads, receivers.size(), 64, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        if (!has_receiver(receivers[i])) continue;
+        const auto [value, certain] = light_of(receivers[i]);
+        visibility[i] = value;
+        if (!certain) ++undecided;
+      }
+    });
+    if (undecided > 0) {
+      run_.result.notes.push_back(std::to_string(undecided) +
+                                  " receivers lie too close to a rounding's boundary to be "
+                                  "decided: their enclosures' midpoints are given");
+    }
+  }
+
+ private:
+  struct exact_lookup {
+    std::vector<exact_texel> texels;  ///< those that several probes share appear several times
+    int probes = 1;
+  };
+  struct certified_light {
+    double value;
+    bool certain;
+  };
+
+  certified_light light_of(const receiver& r) const {
+    const exact_lookup lookup = lookup_of(r);
+    const auto planes = [&](const exact_texel& at, std::span<ball<first_limbs>> out) {
+      for (std::size_t c = 0; c < out.size(); ++c) {
+        out[c] = chains_[c][static_cast<std::size_t>(at.level)].at(at.x, at.y);
+      }
+    };
+    if (const auto p = decided(light<first_limbs>(lookup, r.t, planes))) return {*p, true};
+    if (const auto p = flat_light(lookup, r.t)) return {*p, true};
+    if (const auto p = decided(refined<second_limbs>(lookup, r.t))) return {*p, true};
+    const auto best = refined<last_limbs>(lookup, r.t);
+    const auto p = decided(best);
+    return {p ? *p : best.nearest(), p.has_value()};
+  }
+
+  exact_lookup lookup_of(const receiver& r) const {
+    const image<float>& depth = run_.scene.depth;
+    const auto u = static_cast<std::int64_t>(static_cast<double>(r.u) * 0x1p24);
+    const auto v = static_cast<std::int64_t>(static_cast<double>(r.v) * 0x1p24);
+    exact_lookup result;
+    if (run_.look.plain()) {
+      add_level(result.texels, u, v, 0, 256);
+      return result;
+    }
+    const auto probes = probes_of(r, depth.width, depth.height, run_.look.max_anisotropy);
+    const int levels = run_.look.mips ? mip_levels(depth.width, depth.height) : 1;
+    const auto blend = blend_levels(probes.lambda, levels, map_mip_bits);
+    const auto far = on_grid(blend.fraction, map_mip_bits);
+    for (const auto& at : probes.offsets) {
+      const auto pu = u + static_cast<std::int64_t>(at.du * 0x1p24);
+      const auto pv = v + static_cast<std::int64_t>(at.dv * 0x1p24);
+      add_level(result.texels, pu, pv, blend.near, 256 - far);
+      if (far != 0) add_level(result.texels, pu, pv, blend.far, far);
+    }
+    result.probes = static_cast<int>(probes.offsets.size());
+    return result;
+  }
+
+  void add_level(std::vector<exact_texel>& to, std::int64_t u, std::int64_t v, int level,
+                 std::uint64_t share) const {
+    constexpr std::int64_t one = std::int64_t{1} << 24;
+    const int width = mip_size(run_.scene.depth.width, level);
+    const int height = mip_size(run_.scene.depth.height, level);
+    std::int64_t x = u * width, y = v * height, fx = 0, fy = 0;
+    if (run_.look.filter == texel_filter::bilinear) {
+      x -= one / 2;
+      y -= one / 2;
+      fx = x & (one - 1);
+      fy = y & (one - 1);
+    }
+    for (int j = 0; j < 2; ++j) {
+      for (int i = 0; i < 2; ++i) {
+        const auto part =
+            static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
+        if (part == 0) continue;
+        to.push_back({level, wrap(static_cast<int>((x >> 24) + i), width, map_address),
+                      wrap(static_cast<int>((y >> 24) + j), height, map_address), part, share});
+      }
+    }
+  }
+
+  /// The light of a receiver from texels that `read` gives.
+  template <std::size_t Limbs, class Read>
+  ball<Limbs> light(const exact_lookup& lookup, float t, Read read) const {
+    using number = ball<Limbs>;
+    std::vector<number> sums(technique_.channels()), texel(sums.size());
+    for (const exact_texel& at : lookup.texels) {
+      read(at, std::span<number>(texel));
+      const number weight = number(static_cast<double>(at.part) * 0x1p-48) *
+                            number(static_cast<double>(at.share) * 0x1p-8);
+      for (std::size_t c = 0; c < sums.size(); ++c) sums[c] = sums[c] + weight * texel[c];
+    }
+    if (lookup.probes > 1) {
+      for (number& sum : sums) sum = sum / number(lookup.probes);
+    }
+    const number p = technique_.template light<number>(sums, number(clamp_depth(t)));
+    const double alpha = on_split_grid(run_.how.bleeding_reduction);
+    return alpha == 0 ? p : reduce_bleeding(p, number(alpha));
+  }
+
+  /// The same at a higher precision, from the depths themselves; nothing is known of footprints
+  /// that are too large for it.
+  template <std::size_t Limbs>
+  ball<Limbs> refined(const exact_lookup& lookup, float t) const {
+    using number = ball<Limbs>;
+    using place = std::tuple<int, int, int>;
+    if (base_texels(lookup) > most_refined_texels) return number::anything();
+    std::map<place, std::vector<number>> stored, filtered;
+    const auto texel = [&](int x, int y) -> const std::vector<number>& {
+      const image<float>& depth = run_.scene.depth;
+      x = wrap(x, depth.width, map_address);
+      y = wrap(y, depth.height, map_address);
+      auto& values = stored[{0, x, y}];
+      if (values.empty()) {
+        values.resize(technique_.channels());
+        technique_.template texel<number>(number(clamp_depth(depth.at(x, y))), values);
+      }
+      return values;
+    };
+    const auto add = [](std::vector<number>& to, const std::vector<number>& values,
+                        const number& weight) {
+      for (std::size_t c = 0; c < to.size(); ++c) to[c] = to[c] + weight * values[c];
+    };
+    const auto value = [&](auto&& self, int level, int x, int y) -> const std::vector<number>& {
+      auto& values = filtered[{level, x, y}];
+      if (!values.empty()) return values;
+      std::vector<number> sum(technique_.channels());
+      if (level == 0) {
+        const auto taps = static_cast<int>(blur_.weights.size());
+        for (int j = 0; j < taps; ++j) {
+          for (int i = 0; i < taps; ++i) {
+            const number weight = number(blur_.weights[static_cast<std::size_t>(i)]) *
+                                  number(blur_.weights[static_cast<std::size_t>(j)]);
+            add(sum, texel(x + i - taps / 2, y + j - taps / 2), weight);
+          }
+        }
+      } else {
+        const auto across = mip_axis(map_mips, mip_size(run_.scene.depth.width, level - 1), x);
+        const auto down = mip_axis(map_mips, mip_size(run_.scene.depth.height, level - 1), y);
+        const number weight(1.0 / (across.denominator * down.denominator));
+        for (int j = 0; j < down.count; ++j) {
+          for (int i = 0; i < across.count; ++i) {
+            add(sum, self(self, level - 1, across.first + i, down.first + j), weight);
+          }
+        }
+      }
+      // The map may have grown meanwhile, but its nodes stay where they are.
+      values = std::move(sum);
+      return values;
+    };
+    return light<Limbs>(lookup, t, [&](const exact_texel& at, std::span<number> out) {
+      const auto& values = value(value, at.level, at.x, at.y);
+      std::copy(values.begin(), values.end(), out.begin());
+    });
+  }
+
+  static constexpr double most_refined_texels = 20000;
+  static double base_texels(const exact_lookup& lookup) {
+    double sum = 0;
+    for (const exact_texel& at : lookup.texels) sum += std::ldexp(1.0, 2 * at.level);
+    return sum;
+  }
+
+  /// What the technique says where every texel under the footprint has one depth.
+  std::optional<double> flat_light(const exact_lookup& lookup, float t) const {
+    if constexpr (requires { technique_.flat_light(0.0, 0.0); }) {
+      const image<float>& depth = run_.scene.depth;
+      const int radius = blur_.radius();
+      const exact_texel& any = lookup.texels.front();
+      const float x0 = clamp_depth(depth.at(std::min(any.x << any.level, depth.width - 1),
+                                            std::min(any.y << any.level, depth.height - 1)));
+      for (const exact_texel& at : lookup.texels) {
+        const auto from = [&](int i) { return (i << at.level) - radius; };
+        const auto to = [&](int i) { return ((i + 1) << at.level) + radius; };
+        for (int y = std::max(0, from(at.y)); y < std::min(depth.height, to(at.y)); ++y) {
+          for (int x = std::max(0, from(at.x)); x < std::min(depth.width, to(at.x)); ++x) {
+            if (clamp_depth(depth.at(x, y)) != x0) return std::nullopt;
+          }
+        }
+      }
+      return technique_.flat_light(static_cast<double>(x0), static_cast<double>(clamp_depth(t)));
+    } else {
+      return std::nullopt;
+    }
+  }
+
+  run_context& run_;
+  const Technique& technique_;
+  const kernel blur_;
+  std::vector<std::vector<image<ball<first_limbs>>>> chains_;
+};
+
+template <class Technique>
+void run_filtered_exact(run_context& run, const Technique& technique) {
+  filtered_exact<Technique> engine(run, technique);
+  engine.generate();
+  engine.shade();
+}
+
+}  // namespace bitshade
