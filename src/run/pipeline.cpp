@@ -33,8 +33,6 @@ run_function function_of(const configuration& how) {
       return how.exact() ? run_summed_area_exact : run_summed_area_native;
     case technique::evsm2:
     case technique::evsm4:
-    case technique::evsm2:
-    case technique::evsm4:
       return how.exact() ? run_evsm_exact : run_exponential_native;
     case technique::esm:
       return how.exact() ? run_esm_exact : run_exponential_native;
@@ -46,7 +44,7 @@ run_function function_of(const configuration& how) {
       break;
   }
   throw usage_error("technique " + std::string(name_of(how.method)) +
-                    " is not part of this build: use another than it");
+                    " is not part of this build: use another");
 }
 
 }  // namespace

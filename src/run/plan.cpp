@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "bitshade/formats/limits.hpp"
+#include "bitshade/shadow/exponential.hpp"
 #include "bitshade/shadow/moments.hpp"
 #include "bitshade/texture/gaussian.hpp"
 #include "io/error.hpp"
@@ -128,6 +130,23 @@ smallest_stored smallest_of(const frame& scene, const configuration& how, const 
   return result;
 }
 
+/// The smallest magnitude that a technique of functions of depth stores: values between those of
+/// depths 0 and 1 filter to such. 0 where terms pass through it.
+std::optional<double> smallest_function_of(const configuration& how) {
+  switch (how.method) {
+    case technique::esm:
+    case technique::evsm2:
+      return 1;
+    case technique::evsm4:
+      return exp_of_double(-2 * how.negative_exponent) / 2;
+    case technique::csm:
+    case technique::msm:
+      return 0;
+    default:
+      return std::nullopt;
+  }
+}
+
 effect subnormals_effect(const frame& scene, const configuration& how, const plan& p) {
   effect e{"subnormals", false, false, ""};
   if (how.exact()) {
@@ -145,7 +164,9 @@ effect subnormals_effect(const frame& scene, const configuration& how, const pla
   const double normal =
       exponent < -1000 ? 0x1p-1000
                        : std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
-  const auto smallest = smallest_of(scene, how, p, normal);
+  const auto function = smallest_function_of(how);
+  const auto smallest =
+      function ? smallest_stored{*function, 0} : smallest_of(scene, how, p, normal);
   e.needed = smallest.value < normal;
   if (smallest.texels > 0) {
     e.evidence = count_of(smallest.texels, scene.depth.texels.size(),

@@ -249,11 +249,13 @@ TEST_CASE("every filter, every format: visibilities in [0,1], the same on any nu
         how.filter = anisotropy > 1 ? texel_filter::trilinear : texel_filter::bilinear;
         how.max_anisotropy = anisotropy;
         const auto one = run(scene, how, 1), two = run(scene, how, 2);
+        const auto everything = run_pipeline(scene, how, make_plan(scene, how).everything(), 2);
         CAPTURE(std::string(name_of(method)), format, anisotropy);
         for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
           if (scene.receivers[i].surface == 0) continue;
           REQUIRE((one.visibility[i] >= 0 && one.visibility[i] <= 1));
           REQUIRE(one.visibility[i] == two.visibility[i]);
+          REQUIRE(one.visibility[i] == everything.visibility[i]);  // the plan is right
         }
       }
 }
