@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bitshade/arithmetic/real_math.hpp"
 #include "bitshade/arithmetic/select.hpp"
 
 namespace bitshade {
@@ -52,12 +53,16 @@ constexpr double exp_of_double(double x) {
   return select(x < -700, 0.0, select(x > 700, infinity, sum * scale));
 }
 
-/// e^x in T: an enclosure type brings its own exponential, everything else rounds binary64's once.
+/// e^x in T: real's own, correctly rounded; an enclosure type's own; else binary64's above.
 ///
-/// Error    (exp_of_double_error * 2^-53 relative, then) one rounding to T.
+/// Error    float: one rounding after exp_of_double_error; double: exp_of_double_error.
 template <class T>
 constexpr T exponential(const T& x) {
-  return static_cast<T>(exp_of_double(static_cast<double>(x)));
+  if constexpr (requires { typename T::format_type; }) {
+    return exp(x);
+  } else {
+    return static_cast<T>(exp_of_double(static_cast<double>(x)));
+  }
 }
 
 }  // namespace bitshade

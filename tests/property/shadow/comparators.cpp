@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bitshade/shadow/certified.hpp"
-#include "bitshade/shadow/deep.hpp"
 #include "bitshade/shadow/esm.hpp"
 #include "bitshade/shadow/evsm.hpp"
 #include "bitshade/shadow/msm.hpp"

@@ -120,7 +120,8 @@ big exact_light(const frame& scene, const configuration& how, const receiver& r)
   const big t = clamp_depth(r.t), c = how.exponent, c2 = how.negative_exponent;
   const auto bound = [&](const big& m1, const big& m2, const big& w, const big& rate) -> big {
     if (w <= m1) return 1;
-    const big v = std::max<big>(m2 - m1 * m1, how.min_variance * rate * rate * w * w);
+    const big v =
+        std::max<big>(m2 - m1 * m1, std::min<big>(1, how.min_variance * rate * rate) * w * w);
     return v / (v + (w - m1) * (w - m1));
   };
   const auto positive = [&] {
