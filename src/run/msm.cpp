@@ -32,7 +32,7 @@ struct msm_map {
 }  // namespace
 
 void run_msm_native(run_context& run) {
-  const auto& basis = run.how.optimised_basis ? msm_optimised_transform : msm_power_transform;
+  const auto& basis = run.how.optimised_basis ? msm_optimised_transform : msm_dense_transform;
   run_texel_map(run, msm_map{&basis, run.how.moment_bias});
 }
 
