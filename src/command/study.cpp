@@ -80,10 +80,9 @@ std::string describe(const frame& input) {
 }
 
 void print(const report_section& s, const study_result& result, bool verified) {
-  std::cout << s.input.name << ": "
-            << nlohmann::json::parse(s.input.description)["summary"].get<std::string>() << "\n\n"
-            << text_tables(s.rows) << '\n'
-            << text_effects(s.rows) << '\n';
+  const std::string sizes = nlohmann::json::parse(s.input.description)["summary"];
+  for (const std::string& text : wrap(s.input.name + ": " + sizes, 80)) std::cout << text << '\n';
+  std::cout << '\n' << text_tables(s.rows) << '\n' << text_effects(s.rows) << '\n';
   if (verified) {
     double planned = 0, everything = 0;
     for (const verification& v : result.verified)
