@@ -97,11 +97,29 @@ int main(int argc, char** argv) {
   configuration pcf = lvsm(0, 1);
   pcf.method = technique::pcf;
   techniques.push_back(named("pcf, 9 x 9", garden, pcf));
+  configuration msm = lvsm(0, 1);
+  msm.method = technique::msm;
+  techniques.insert(techniques.end() - 1, named("msm", garden, msm));
   if (!time_all(garden, techniques, rounds)) return 1;
   print("Techniques against a VSM: garden, 1024^2, 960 x 600, blur of 9 taps", techniques);
   const auto whole = [](const timed& t) { return t.map + t.shade; };
   std::printf("pcf 9 x 9 over a blurred evsm4, whole frame: %.2f\n",
               whole(techniques.back()) / whole(techniques[2]));
+
+  // The columns of the source's comparison: N layers beside 2N terms, in 8 bits.
+  std::vector<timed> series{named("vsm", garden, lvsm(0, 1))};
+  for (const int n : {2, 4, 6, 8}) {
+    series.push_back(named("lvsm, " + std::to_string(n) + " layers", garden, lvsm(n, 1)));
+  }
+  for (const int terms : {4, 8, 12, 16}) {
+    configuration csm = lvsm(0, 1);
+    csm.method = technique::csm;
+    csm.format = "unorm8";
+    csm.terms = terms;
+    series.push_back(named("csm, " + std::to_string(terms) + " terms, unorm8", garden, csm));
+  }
+  if (!time_all(garden, series, rounds)) return 1;
+  print("Layers against terms: garden, 1024^2, 960 x 600, blur of 9 taps", series);
 
   configuration lloyd = lvsm(4, 1);
   lloyd.splits = split_rule::lloyd;
