@@ -106,6 +106,40 @@ std::string acne(std::span<const row> rows) {
          " of the receivers are lit in truth and darker by more than 1/255.";
 }
 
+/// Where a rule of splits other than the uniform one put them, and what bleeds there: hit or miss.
+std::vector<std::string> splits_found(std::span<const row> rows) {
+  std::vector<std::string> out;
+  std::map<std::string, std::vector<const row*>> same;  // by rule and splits, over the formats
+  for (const row& r : rows) {
+    const std::size_t at = r.configuration.find(" splits=");
+    if (at == std::string::npos || r.splits.size() < 3) continue;
+    const std::string rule =
+        r.configuration.substr(at + 8, r.configuration.find(' ', at + 8) - at - 8);
+    if (rule == "uniform") continue;
+    std::string list;
+    for (std::size_t i = 1; i + 1 < r.splits.size(); ++i)
+      list += (list.empty() ? "" : ", ") + brief(r.splits[i], 4);
+    const bool named = rule.find_first_of("0123456789") == std::string::npos;
+    same["With " + std::to_string(r.layers) + " layers " +
+         (named ? "the rule '" + rule + "' splits" : "split") + " at " + list]
+        .push_back(&r);
+  }
+  for (const auto& [where, cells] : same) {
+    const auto bleeds = [](const row* r) { return r->figures.bleed_area; };
+    const auto [least, most] = std::minmax_element(
+        cells.begin(), cells.end(), [&](auto a, auto b) { return bleeds(a) < bleeds(b); });
+    out.push_back(where + ", " +
+                  (bleeds(*most) == 0 ? "no receiver bleeds"
+                   : bleeds(*least) == bleeds(*most)
+                       ? share(bleeds(*most)) + " of the receivers bleed"
+                       : share(bleeds(*least)) + " (" + (*least)->format + ") to " +
+                             share(bleeds(*most)) + " (" + (*most)->format +
+                             ") of the receivers bleed") +
+                  ".");
+  }
+  return out;
+}
+
 /// Where the format, not the method, is what a user would see.
 std::string who_is_to_blame(std::span<const row> rows) {
   std::vector<std::string> formats;
@@ -137,6 +171,7 @@ std::vector<std::string> findings(std::span<const row> rows) {
   };
   add(cheapest(rows));
   add(bleeding(rows));
+  for (std::string& s : splits_found(rows)) add(std::move(s));
   add(acne(rows));
   for (std::string& s : against_binary32(rows)) add(std::move(s));
   add(who_is_to_blame(rows));

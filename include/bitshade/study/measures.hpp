@@ -101,6 +101,8 @@ inline measures measure(const frame& scene, const pictures& p, double eps = tole
     const double seen = p.visibility[i];
     if (seen != seen) continue;
     ++m.receivers;
+    // Against truth + eps, not eps alone: in a penumbra whose truth is just under 1/255 a format
+    // error of 1e-4 would else count as bleeding.
     if (p.geometric[i] < 1.0 / 255 && seen > p.geometric[i] + eps) {
       ++bleeding;
       light += seen;
