@@ -11,7 +11,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set_source_files_properties(${bulk_avx2} PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma;-mf16c")
   # g++ 12 warns of its own header's deliberately undefined vectors (GCC bug 105593).
   set_source_files_properties(${bulk_avx512} PROPERTIES COMPILE_OPTIONS
-    "-mavx512f;-mavx512bw;-mavx512dq;-mavx512vl;-mfma;-mf16c;$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>")
+    "-mavx512f;-mavx512bw;-mavx512dq;-mavx512vl;-mfma;-mf16c;$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
 else()
   get_target_property(sources bitshade_bulk SOURCES)
   list(FILTER sources EXCLUDE REGEX "_(sse2|avx2|avx512)\\.cpp$")
