@@ -2,7 +2,23 @@
 
 #include <stdexcept>
 
+#if defined(BITSHADE_X86_64)
+#include <cpuid.h>
+#endif
+
 namespace bitshade::bulk {
+
+#if defined(BITSHADE_X86_64)
+namespace {
+
+/// CPUID leaf 1: clang 16's __builtin_cpu_supports does not know F16C by name.
+bool has_f16c() {
+  unsigned a = 0, b = 0, c = 0, d = 0;
+  return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+}
+
+}  // namespace
+#endif
 
 bool has(instruction_set set) {
   switch (set) {
@@ -11,11 +27,11 @@ bool has(instruction_set set) {
 #if defined(BITSHADE_X86_64)
     case instruction_set::baseline: return true;
     case instruction_set::avx2:
-      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && has_f16c();
     case instruction_set::avx512:
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
              __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-             __builtin_cpu_supports("fma") && __builtin_cpu_supports("f16c");
+             __builtin_cpu_supports("fma") && has_f16c();
 #else
     default: return false;
 #endif

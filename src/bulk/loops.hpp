@@ -94,7 +94,8 @@ void decode_binary(const plan& p, const void* in, void* out, std::size_t n) {
   const auto sign = all(p.sign), sign_shift = all(static_cast<word>(lane_bits - p.width));
   const auto shift = all(static_cast<word>(fraction - p.fraction_bits));
   const auto normal = all(rebias), subnormal = all(rebias + (word{1} << fraction));
-  const auto least = V::value(subnormal), least_code = all(p.min_normal_code), largest = all(p.max_code);
+  const auto least = V::value(subnormal);
+  const auto least_code = all(p.min_normal_code), largest = all(p.max_code);
   const auto infinity = all(infinity_word);
   // Of a NaN's payload e4m3 keeps nothing; binary64 keeps even a signalling one, as decode does.
   const auto payload = all(p.special == specials::single_nan ? 0 : (word{1} << fraction) - 1);
