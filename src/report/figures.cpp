@@ -13,10 +13,6 @@
 namespace bitshade {
 namespace {
 
-std::string figure(const std::string& inside, const std::string& caption_text) {
-  return "<figure>\n" + inside + "\n" + caption_text + "</figure>\n";
-}
-
 std::vector<std::string> formats_of(const report_section& s) {
   std::vector<std::string> formats;
   for (const row& r : s.rows)
@@ -158,6 +154,10 @@ std::string depth_histogram(const report_section& s) {
 }
 
 }  // namespace
+
+std::string figure(const std::string& inside, const std::string& caption_text) {
+  return "<figure>\n" + inside + "\n" + caption_text + "</figure>\n";
+}
 
 std::string data_uri(const std::string& png) { return "data:image/png;base64," + base64(png); }
 

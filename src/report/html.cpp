@@ -7,6 +7,7 @@
 
 #include "io/text.hpp"
 #include "report/figures.hpp"
+#include "report/html_table.hpp"
 #include "report/page.hpp"
 #include "report/plot.hpp"
 #include "report/summary.hpp"
@@ -15,43 +16,9 @@
 namespace bitshade {
 namespace {
 
-struct column {
-  std::string head;
-  std::string tip;
-  bool word = false;
-};
-
-std::string head_of(const std::vector<column>& columns_) {
-  std::string out = "<thead><tr>";
-  for (const column& c : columns_)
-    out += "<th scope=\"col\"" + std::string(c.word ? " class=\"word\"" : "") + " title=\"" +
-           escaped(c.tip) + "\"><button type=\"button\">" + escaped(c.head) + "</button></th>";
-  return out + "</tr></thead>";
-}
-
-std::string word(const std::string& text) {
-  return "<td class=\"word\">" + escaped(text) + "</td>";
-}
-
-std::string value(double v, const std::string& shown) {
-  return "<td data-value=\"" + shortest(v) + "\">" + escaped(shown) + "</td>";
-}
-
-/// A number with a bar behind it: logarithmic from 1e-7 to 1.
-std::string level(double v) {
-  const double share = v <= 0 ? 0 : std::clamp((7 + std::log10(v)) / 7, 0.02, 1.0);
-  return "<td class=\"level\" data-value=\"" + shortest(v) +
-         "\" style=\"--level:" + std::to_string(static_cast<int>(share * 100 + 0.5)) + "%\">" +
-         brief(v) + "</td>";
-}
-
 std::string layers_cell(const row& r) {
-  return r.technique == "lvsm" ? value(r.layers, std::to_string(r.layers)) : value(1, "–");
-}
-
-std::string table(const std::string& head, const std::string& body) {
-  return "<div class=\"scroll\"><table class=\"sorts\">" + head + "<tbody>" + body +
-         "</tbody></table></div>\n";
+  return r.technique == "lvsm" ? number_cell(r.layers, std::to_string(r.layers))
+                               : number_cell(1, "–");
 }
 
 std::string method_table(const report_section& s) {
@@ -60,52 +27,55 @@ std::string method_table(const report_section& s) {
   for (const row& r : s.rows) {
     if (!seen.insert(r.technique + std::to_string(r.layers)).second) continue;
     const measures& m = r.figures;
-    body += "<tr>" + word(r.technique) + layers_cell(r) + level(m.method.rmse) +
-            level(m.method.largest) + level(m.method.p999) +
-            value(m.method.signed_mean, brief(m.method.signed_mean)) + level(m.method_pcf.rmse) +
-            level(m.method_pcf.largest) + "</tr>\n";
+    body += table_row(word_cell(r.technique) + layers_cell(r) + level_cell(m.method.rmse) +
+                      level_cell(m.method.largest) + level_cell(m.method.p999) +
+                      number_cell(m.method.signed_mean, brief(m.method.signed_mean)) +
+                      level_cell(m.method_pcf.rmse) + level_cell(m.method_pcf.largest));
   }
-  return table(head_of({{"technique", "", true},
-                        {"layers", ""},
-                        {"RMSE", "root of the mean squared error"},
-                        {"largest", "at the worst pixel"},
-                        {"99.9 %", "99.9 % of the pixels have at most this error"},
-                        {"mean", "signed: positive is too light"},
-                        {"RMSE, PCF", "against percentage-closer filtering of the same map"},
-                        {"largest, PCF", "against percentage-closer filtering of the same map"}}),
-               body);
+  return sortable_table({{"technique", "", true},
+                         {"layers", ""},
+                         {"RMSE", "root of the mean squared error"},
+                         {"largest", "at the worst pixel"},
+                         {"99.9 %", "99.9 % of the pixels have at most this error"},
+                         {"mean", "signed: positive is too light"},
+                         {"RMSE, PCF", "against percentage-closer filtering of the same map"},
+                         {"largest, PCF", "against percentage-closer filtering of the same map"}},
+                        body);
 }
 
 std::string format_table(const report_section& s) {
   std::string body;
   for (const row& r : s.rows) {
     const measures& m = r.figures;
-    body += "<tr>" + word(r.technique) + layers_cell(r) + word(r.format) + level(m.format.rmse) +
-            level(m.format.largest) + level(m.format.p999) + level(m.total.rmse) +
-            value(m.bleed_area, percent(m.bleed_area)) + value(m.acne_area, percent(m.acne_area)) +
-            value(static_cast<double>(m.violations), std::to_string(m.violations)) +
-            (r.bytes_per_texel == 0 ? value(1e9, "–")
-                                    : value(r.bytes_per_texel, std::to_string(r.bytes_per_texel))) +
-            value(r.map_seconds, brief(r.map_seconds * 1e3)) +
-            value(r.nanoseconds_per_sample(), brief(r.nanoseconds_per_sample())) +
-            value(r.emulation_seconds, brief(r.emulation_seconds * 1e3)) + "</tr>\n";
+    body += table_row(word_cell(r.technique) + layers_cell(r) + word_cell(r.format) +
+                      level_cell(m.format.rmse) + level_cell(m.format.largest) +
+                      level_cell(m.format.p999) + level_cell(m.total.rmse) +
+                      number_cell(m.bleed_area, percent(m.bleed_area)) +
+                      number_cell(m.acne_area, percent(m.acne_area)) +
+                      number_cell(static_cast<double>(m.violations), std::to_string(m.violations)) +
+                      (r.bytes_per_texel == 0
+                           ? number_cell(1e9, "–")
+                           : number_cell(r.bytes_per_texel, std::to_string(r.bytes_per_texel))) +
+                      number_cell(r.map_seconds, brief(r.map_seconds * 1e3)) +
+                      number_cell(r.nanoseconds_per_sample(), brief(r.nanoseconds_per_sample())) +
+                      number_cell(r.emulation_seconds, brief(r.emulation_seconds * 1e3)));
   }
-  return table(
-      head_of({{"technique", "", true},
-               {"layers", ""},
-               {"format", "", true},
-               {"RMSE", "of the format alone"},
-               {"largest", "of the format alone, at the worst pixel"},
-               {"99.9 %", "99.9 % of the pixels have at most this format error"},
-               {"total RMSE", "technique and format against the geometric truth"},
-               {"bleed %", "share of receivers that are dark in truth and lit by more than 1/255"},
-               {"acne %", "share of receivers that are lit in truth and darker by more than 1/255"},
-               {"below PCF", "pixels where the upper bound does not hold"},
-               {"B/texel", "bytes per texel, all layers and channels"},
-               {"ms/map", "generation of the map, native arithmetic"},
-               {"ns/sample", "shading, native arithmetic"},
-               {"emulation",
-                "milliseconds that rounding to the format cost here; a device does not pay it"}}),
+  return sortable_table(
+      {{"technique", "", true},
+       {"layers", ""},
+       {"format", "", true},
+       {"RMSE", "of the format alone"},
+       {"largest", "of the format alone, at the worst pixel"},
+       {"99.9 %", "99.9 % of the pixels have at most this format error"},
+       {"total RMSE", "technique and format against the geometric truth"},
+       {"bleed %", "share of receivers that are dark in truth and lit by more than 1/255"},
+       {"acne %", "share of receivers that are lit in truth and darker by more than 1/255"},
+       {"below PCF", "pixels where the upper bound does not hold"},
+       {"B/texel", "bytes per texel, all layers and channels"},
+       {"ms/map", "generation of the map, native arithmetic"},
+       {"ns/sample", "shading, native arithmetic"},
+       {"emulation",
+        "milliseconds that rounding to the format cost here; a device does not pay it"}},
       body);
 }
 
@@ -175,6 +145,9 @@ std::string section(const report_section& s, std::size_t number) {
       method_table(s);
   out += "<h3>Pictures</h3>" + slider_of(s);
   out += "<h3>Plots</h3>" + plots_of(s);
+  for (const report_part& p : s.parts)
+    out += "<h3>" + escaped(p.title) + "</h3>" +
+           (p.text.empty() ? "" : "<p>" + escaped(p.text) + "</p>") + p.body;
   out +=
       "<h3>Effects: what this scene calls for</h3><p>An effect is simulated only where it can "
       "change a pixel; leaving it out gives the same bits, which <code>--verify-plan</code> "
@@ -185,36 +158,39 @@ std::string section(const report_section& s, std::size_t number) {
 
 }  // namespace
 
+std::string html_page(const report_head& head, const std::string& title, const std::string& body) {
+  return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+         "<link rel=\"icon\" href=\"data:,\">\n<title>" +
+         escaped(title) + "</title>\n<style>" + std::string(page_style()) +
+         "</style></head>\n<body>\n<header><h1>" + escaped(title) +
+         "</h1>\n<p class=\"soft\">What number formats cost these shadow maps, in error and in "
+         "time."
+         "</p>\n<code class=\"command\">" +
+         escaped(head.command) + "</code>\n</header>\n" + body +
+         "<footer><h2>About this report</h2><p>bitshade " + escaped(head.version) +
+         ", built with " + escaped(head.compiler) + ". Times were taken on " +
+         escaped(head.machine) +
+         ". Everything but the times is the same on every machine, for any number of threads. The "
+         "figures stand in results.csv and results.json beside this page, and in results.sqlite."
+         "</p></footer>\n<script>" +
+         std::string(page_script()) + "</script>\n</body></html>\n";
+}
+
 std::string html_report(const report_head& head, const std::vector<report_section>& sections) {
-  std::string title = "bitshade:";
+  std::string title = "bitshade:", body;
   for (std::size_t i = 0; i < sections.size(); ++i)
     title += (i ? ", " : " ") + sections[i].input.name;
-  std::string out =
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-      escaped(title) + "</title>\n<style>" + std::string(page_style()) +
-      "</style></head>\n<body>\n<header><h1>" + escaped(title) +
-      "</h1>\n<p class=\"soft\">What number formats cost these shadow maps, in error and in time."
-      "</p>\n<code class=\"command\">" +
-      escaped(head.command) + "</code>\n";
   if (sections.size() > 1) {
-    out += "<nav><p>";
+    body += "<nav><p>";
     for (std::size_t i = 0; i < sections.size(); ++i)
-      out += "<a href=\"#input-" + std::to_string(i) + "\">" + escaped(sections[i].input.name) +
-             "</a>";
-    out += "</p></nav>\n";
+      body += "<a href=\"#input-" + std::to_string(i) + "\">" + escaped(sections[i].input.name) +
+              "</a>";
+    body += "</p></nav>\n";
   }
-  out += "</header>\n<main>\n";
-  for (std::size_t i = 0; i < sections.size(); ++i) out += section(sections[i], i);
-  out +=
-      "</main>\n<footer><h2>About this report</h2><p>bitshade " + escaped(head.version) +
-      ", built with " + escaped(head.compiler) + ". Times were taken on " + escaped(head.machine) +
-      ". Everything but the times is the same on every machine, for any "
-      "number of threads. The figures stand in results.csv and results.json beside this page, and "
-      "in results.sqlite.</p></footer>\n<script>" +
-      std::string(page_script()) + "</script>\n</body></html>\n";
-  return out;
+  body += "<main>\n";
+  for (std::size_t i = 0; i < sections.size(); ++i) body += section(sections[i], i);
+  return html_page(head, title, body + "</main>\n");
 }
 
 }  // namespace bitshade

@@ -9,6 +9,13 @@
 
 namespace bitshade {
 
+/// A part of a section that a question of its own adds: accuracy against time, blame, precision.
+struct report_part {
+  std::string title;
+  std::string text;  ///< what is seen, in words
+  std::string body;  ///< HTML: sortable_table()s (html_table.hpp) and figure()s (figures.hpp)
+};
+
 /// One input of a study with everything that is shown of it.
 struct report_section {
   input_description input;
@@ -17,6 +24,7 @@ struct report_section {
   std::map<std::string, picture_files> cells;   ///< of the cells, by key
   std::map<std::string, std::string> commands;  ///< that reproduce a cell's pictures, by key
   std::string command;                          ///< that reproduces the figures
+  std::vector<report_part> parts = {};          ///< after the plots, in this order
 };
 
 /// What heads a report.
@@ -26,6 +34,9 @@ struct report_head {
   std::string compiler;
   std::string machine;
 };
+
+/// A page of its own around `body`: heading, style, script, and where its figures come from.
+std::string html_page(const report_head& head, const std::string& title, const std::string& body);
 
 /// A page with a summary in words, tables, plots and pictures; light and dark, for screens of any
 /// width and for paper. The same arguments give the same bytes.

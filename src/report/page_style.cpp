@@ -51,15 +51,15 @@ svg { display: block; width: 100%; max-width: 46rem; height: auto; background: v
   border: 1px solid var(--edge); border-radius: 6px; font: 12.5px system-ui, sans-serif; }
 svg text { fill: var(--ink); } svg .title { fill: var(--soft); }
 svg .grid { stroke: var(--grid); } svg .axis { stroke: var(--soft); }
-svg .line { fill: none; stroke-width: 2; } svg .mark { stroke: var(--card); stroke-width: 1; }
 svg .split { fill: var(--ink); }
-.line.c0 { stroke: var(--c0); } .line.c1 { stroke: var(--c1); } .line.c2 { stroke: var(--c2); }
-.line.c3 { stroke: var(--c3); } .line.c4 { stroke: var(--c4); } .line.c5 { stroke: var(--c5); }
-.line.cm { stroke: var(--soft); stroke-dasharray: 6 4; }
-.mark.c0, .area.c0 { fill: var(--c0); } .mark.c1, .area.c1 { fill: var(--c1); }
-.mark.c2, .area.c2 { fill: var(--c2); } .mark.c3, .area.c3 { fill: var(--c3); }
-.mark.c4, .area.c4 { fill: var(--c4); } .mark.c5, .area.c5 { fill: var(--c5); }
-.mark.cm { fill: var(--soft); }
+.c0 { --own: var(--c0); } .c1 { --own: var(--c1); } .c2 { --own: var(--c2); }
+.c3 { --own: var(--c3); } .c4 { --own: var(--c4); } .c5 { --own: var(--c5); }
+.cm { --own: var(--soft); }
+svg .line { fill: none; stroke: var(--own); stroke-width: 2; } svg .line.cm { stroke-dasharray: 6 4; }
+svg .spread { stroke: var(--own); stroke-width: 1.2; opacity: .7; }
+svg .compare-with { stroke: var(--soft); stroke-dasharray: 2 3; }
+svg .mark { fill: var(--own); stroke: var(--card); stroke-width: 1; } svg .area { fill: var(--own); }
+svg .mark.hollow { fill: var(--card); stroke: var(--own); stroke-width: 2; }
 .choices { display: flex; flex-wrap: wrap; gap: .5rem 1rem; margin: .6rem 0; font-size: .9rem; }
 .choices label { display: flex; gap: .4rem; align-items: center; }
 select { font: inherit; color: inherit; background: var(--card); border: 1px solid var(--edge);

@@ -7,13 +7,16 @@
 
 namespace bitshade {
 
-/// A line, or points alone, in one of the page's colours (class c0 .. c5, cm for the method).
+/// A line, or points alone, in one of the page's colours (class c0 .. c5, cm for the method); from
+/// the seventh on the marks are hollow.
 struct series {
   std::string name;
   int colour = 0;  ///< index into categories(); -1: the text's colour, dashed
   bool line = true;
   std::vector<std::pair<double, double>> points;
-  std::vector<std::string> labels;  ///< a tooltip a point; may be empty
+  std::vector<std::string> labels;                     ///< a tooltip a point; may be empty
+  std::vector<std::pair<double, double>> spread = {};  ///< of x about each point; may be empty
+  bool marks = true;
 };
 
 struct axis {
@@ -26,6 +29,7 @@ struct plot {
   std::string name;  ///< says what the picture shows, to readers that cannot see it
   axis x, y;
   std::vector<series> lines;
+  std::vector<std::pair<double, std::string>> levels = {};  ///< values of y to compare with, named
 };
 
 /// Lines or points over two axes.

@@ -3,35 +3,10 @@
 
 #include "io/text.hpp"
 #include "report/summary.hpp"
+#include "report/text_table.hpp"
 
 namespace bitshade {
 namespace {
-
-using line = std::vector<std::string>;
-
-/// Columns as wide as their widest entry, `words` to the left and numbers to the right; two blanks
-/// between them, or one where two would not fit a page of 80.
-std::string table(const std::vector<line>& lines, const std::set<std::size_t>& words) {
-  std::vector<std::size_t> widths(lines.front().size(), 0);
-  for (const line& l : lines)
-    for (std::size_t i = 0; i < l.size(); ++i) widths[i] = std::max(widths[i], columns(l[i]));
-  std::size_t width = 0;
-  for (const std::size_t w : widths) width += w;
-  const std::size_t gap = width + 2 * (widths.size() - 1) > 80 ? 1 : 2;
-  std::string out;
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    std::string text;
-    for (std::size_t i = 0; i < lines[n].size(); ++i) {
-      if (i != 0) text.append(gap, ' ');
-      text +=
-          words.contains(i) ? pad_right(lines[n][i], widths[i]) : pad_left(lines[n][i], widths[i]);
-    }
-    text.erase(text.find_last_not_of(' ') + 1);
-    out += text + '\n';
-    if (n == 0) out += std::string(width + gap * (widths.size() - 1), '-') + '\n';
-  }
-  return out;
-}
 
 std::string layers_of(const row& r) {
   return r.technique == "lvsm" ? std::to_string(r.layers) : "-";
@@ -43,7 +18,7 @@ std::string milliseconds(double seconds) { return brief(seconds * 1e3, 3); }
 
 std::string text_tables(std::span<const row> rows) {
   if (rows.empty()) return "";
-  std::vector<line> methods{{"name", "N", "rmse", "largest", "p99.9", "mean", "vs pcf"}};
+  std::vector<text_line> methods{{"name", "N", "rmse", "largest", "p99.9", "mean", "vs pcf"}};
   std::set<std::string> seen;
   for (const row& r : rows) {
     if (!seen.insert(r.technique + " " + std::to_string(r.layers)).second) continue;
@@ -54,10 +29,10 @@ std::string text_tables(std::span<const row> rows) {
   }
   std::string out =
       "Method error: the technique in exact arithmetic against the geometric truth\n" +
-      table(methods, {0}) + '\n';
+      text_table(methods, {0}) + '\n';
 
-  std::vector<line> formats{{"name", "N", "format", "rmse", "largest", "p99.9", "bleed%", "acne%",
-                             "B/tx", "ms/map", "ns"}};
+  std::vector<text_line> formats{{"name", "N", "format", "rmse", "largest", "p99.9", "bleed%",
+                                  "acne%", "B/tx", "ms/map", "ns"}};
   for (const row& r : rows) {
     const measures& m = r.figures;
     const bool exact = r.format == "exact";
@@ -69,7 +44,7 @@ std::string text_tables(std::span<const row> rows) {
                        milliseconds(r.map_seconds), brief(r.nanoseconds_per_sample(), 3)});
   }
   out += "Format error: the technique in the format against itself in exact arithmetic\n" +
-         table(formats, {0, 2});
+         text_table(formats, {0, 2});
   out +=
       "\nbleed%, acne%: share of receivers that should be dark and are not, or lit and\n"
       "are not, by more than 1/255. B/tx: bytes per texel, all layers. ns: per sample.\n"
