@@ -22,6 +22,7 @@ void rounder::set_steps(mpfr_srcptr x) {
   if (mpfr_get_prec(steps_) != precision) {
     mpfr_set_prec(steps_, precision);
     mpfr_set_prec(rounded_, precision);
+    mpfr_set_prec(rest_, precision);
   }
   mpfr_abs(steps_, x, MPFR_RNDN);
 }
@@ -43,12 +44,44 @@ void rounder::set(mpfr_srcptr x) {
   }
 }
 
-std::uint64_t rounder::bits(bitshade::rounding direction, bool flush, bitshade::overflow policy) {
+void rounder::round(bitshade::rounding direction, std::uint64_t random, int random_bits) {
+  using bitshade::rounding;
+  direction_ = direction;
+  huge_ = infinite_;
+  count_ = ~std::uint64_t{0};
+  if (nan_ || infinite_) return;
+  switch (direction) {
+    case rounding::nearest_even: mpfr_roundeven(rounded_, steps_); break;
+    case rounding::nearest_away: mpfr_round(rounded_, steps_); break;
+    case rounding::toward_zero: mpfr_trunc(rounded_, steps_); break;
+    case rounding::up: negative_ ? mpfr_trunc(rounded_, steps_) : mpfr_ceil(rounded_, steps_); break;
+    case rounding::down: negative_ ? mpfr_ceil(rounded_, steps_) : mpfr_trunc(rounded_, steps_); break;
+    case rounding::to_odd:
+      mpfr_trunc(rounded_, steps_);
+      if (mpfr_integer_p(steps_) == 0 && (mpfr_get_ui(rounded_, MPFR_RNDZ) & 1) == 0) mpfr_ceil(rounded_, steps_);
+      break;
+    case rounding::stochastic: {
+      // floor(2^n f) + (the n leading random bits) >= 2^n
+      mpfr_frac(rest_, steps_, MPFR_RNDZ);
+      mpfr_mul_2si(rest_, rest_, random_bits, MPFR_RNDZ);
+      mpfr_floor(rest_, rest_);
+      mpfr_trunc(rounded_, steps_);
+      const std::uint64_t share = mpfr_get_ui(rest_, MPFR_RNDZ), drawn = random >> (64 - random_bits);
+      if (share != 0 && drawn >= (ones(random_bits) - share) + 1) mpfr_add_ui(rounded_, rounded_, 1, MPFR_RNDZ);
+      break;
+    }
+  }
+  huge_ = mpfr_cmp_ui_2exp(rounded_, 1, 64) >= 0;
+  count_ = huge_ ? ~std::uint64_t{0} : mpfr_get_ui(rounded_, MPFR_RNDZ);
+}
+
+std::uint64_t rounder::bits(bool flush, bitshade::overflow policy) const {
   using bitshade::overflow;
   using bitshade::rounding;
   const bool binary = e_.kind == family::binary;
-  const bool outward = direction == rounding::nearest_even || direction == rounding::nearest_away ||
-                       (direction == rounding::up && !negative_) || (direction == rounding::down && negative_);
+  const bool outward = direction_ == rounding::nearest_even || direction_ == rounding::nearest_away ||
+                       direction_ == rounding::stochastic || (direction_ == rounding::up && !negative_) ||
+                       (direction_ == rounding::down && negative_);
   const bool ocp = e_.special == bitshade::specials::single_nan;
   const std::uint64_t sign = negative_ && e_.has_sign ? std::uint64_t{1} << (e_.width - 1) : 0;
   const std::uint64_t exponent_ones = binary ? ones(e_.exponent_bits) << e_.fraction_bits : 0;
@@ -59,37 +92,18 @@ std::uint64_t rounder::bits(bitshade::rounding direction, bool flush, bitshade::
   if (nan_) return binary ? nan : 0;
   if (negative_ && !e_.has_sign) return 0;
   if (infinite_ && binary) return sign | (policy == overflow::saturate ? largest : infinity);
-
-  bool huge = infinite_;
-  std::uint64_t count = ~std::uint64_t{0};
-  if (!infinite_) {
-    switch (direction) {
-      case rounding::nearest_even: mpfr_roundeven(rounded_, steps_); break;
-      case rounding::nearest_away: mpfr_round(rounded_, steps_); break;
-      case rounding::toward_zero: mpfr_trunc(rounded_, steps_); break;
-      case rounding::up: negative_ ? mpfr_trunc(rounded_, steps_) : mpfr_ceil(rounded_, steps_); break;
-      case rounding::down: negative_ ? mpfr_ceil(rounded_, steps_) : mpfr_trunc(rounded_, steps_); break;
-      case rounding::to_odd:
-        mpfr_trunc(rounded_, steps_);
-        if (mpfr_integer_p(steps_) == 0 && (mpfr_get_ui(rounded_, MPFR_RNDZ) & 1) == 0) mpfr_ceil(rounded_, steps_);
-        break;
-      case rounding::stochastic: break;
-    }
-    huge = mpfr_cmp_ui_2exp(rounded_, 1, 64) >= 0;
-    count = huge ? ~std::uint64_t{0} : mpfr_get_ui(rounded_, MPFR_RNDZ);
-  }
   if (!binary) {
     if (!negative_) {
       const std::uint64_t most = ones(e_.has_sign ? e_.width - 1 : e_.width);
-      return count < most ? count : most;
+      return count_ < most ? count_ : most;
     }
     const std::uint64_t most = e_.kind == family::fixed ? std::uint64_t{1} << (e_.width - 1) : ones(e_.width - 1);
-    return (0 - (count < most ? count : most)) & ones(e_.width);
+    return (0 - (count_ < most ? count_ : most)) & ones(e_.width);
   }
   // count 2^ulp: the exponent field says how far ulp lies above the subnormals'.
   const long field = ulp_ - (least_exponent(e_) - e_.fraction_bits);
-  if (field > (2L << e_.exponent_bits)) huge = true;
-  const std::uint64_t magnitude = huge ? ~std::uint64_t{0} : (static_cast<std::uint64_t>(field) << e_.fraction_bits) + count;
+  const bool huge = huge_ || field > (2L << e_.exponent_bits);
+  const std::uint64_t magnitude = huge ? ~std::uint64_t{0} : (static_cast<std::uint64_t>(field) << e_.fraction_bits) + count_;
   if (magnitude > largest) {
     const bool finite = policy == overflow::saturate || (policy == overflow::ieee && !outward);
     return sign | (finite ? largest : infinity);

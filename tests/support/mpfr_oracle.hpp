@@ -37,12 +37,22 @@ class rounder {
   void set(mpfr_srcptr x);
   /// The same for a norm, x counting its steps.
   void set_steps(mpfr_srcptr x);
-  /// The bits of x in a direction, for each policy of subnormals and overflow.
-  std::uint64_t bits(bitshade::rounding direction, bool flush, bitshade::overflow policy);
+  /// The integer of steps that x becomes; stochastic rounding looks at `random_bits` leading bits of `random`.
+  void round(bitshade::rounding direction, std::uint64_t random = 0, int random_bits = 64);
+  /// The bits of what was rounded, for each policy of subnormals and overflow.
+  std::uint64_t bits(bool flush, bitshade::overflow policy) const;
+  /// Both at once.
+  std::uint64_t bits(bitshade::rounding direction, bool flush, bitshade::overflow policy) {
+    round(direction);
+    return bits(flush, policy);
+  }
 
  private:
   bitshade::encoding e_;
-  number steps_, rounded_;
+  number steps_, rounded_, rest_;
+  bitshade::rounding direction_ = bitshade::rounding::nearest_even;
+  std::uint64_t count_ = 0;  ///< the rounded steps; all ones from 2^64 on
+  bool huge_ = false;
   long ulp_ = 0;
   bool nan_ = false, negative_ = false, infinite_ = false;
 };
