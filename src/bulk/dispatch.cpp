@@ -11,10 +11,14 @@ namespace bitshade::bulk {
 #if defined(BITSHADE_X86_64)
 namespace {
 
-/// CPUID leaf 1: clang 16's __builtin_cpu_supports does not know F16C by name.
+/// CPUID leaf 1: clang 16's __builtin_cpu_supports does not know F16C by name. Asked once: on a virtual machine the
+/// instruction traps, which takes as long as rounding thousands of numbers.
 bool has_f16c() {
-  unsigned a = 0, b = 0, c = 0, d = 0;
-  return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+  static const bool found = [] {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    return __get_cpuid(1, &a, &b, &c, &d) != 0 && (c & bit_F16C) != 0;
+  }();
+  return found;
 }
 
 }  // namespace
