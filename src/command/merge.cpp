@@ -1,5 +1,6 @@
 // `bitshade merge`: the databases of several runs as one, with its report.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "io/build.hpp"
 #include "io/error.hpp"
 #include "report/folder.hpp"
+#include "report/labels.hpp"
 
 namespace bitshade::command {
 namespace {
@@ -49,6 +51,7 @@ void merge(const options& given) {
       s.cells[r.key] = results.pictures(r.key);
       s.rows.push_back(std::move(r));
     }
+    std::sort(s.rows.begin(), s.rows.end(), shown_before);
     cells += s.rows.size();
     sections.push_back(std::move(s));
   }

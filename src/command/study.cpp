@@ -4,10 +4,12 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/grid.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
 #include "io/atomic_file.hpp"
@@ -27,13 +29,16 @@ struct options {
   std::shared_ptr<study_options> cells;
   std::string out = "bitshade-out";
   std::string shard;  ///< "i/n": every n-th cell, from the i-th on
-  bool verify_plan = false, json = false;
+  bool verify_plan = false, no_pictures = false, json = false;
   std::string arguments;         ///< as given, but for the scenes
   std::string shared_arguments;  ///< those without the lists, which a single cell does not share
+  std::string grid;              ///< a file that describes the cells; empty: the options do
+  std::vector<std::string> shared_options;  ///< the options given, for the grid's cells
 };
 
-/// The cells that a shard computes: every n-th, from the i-th on.
-std::vector<configuration> shard_of(std::vector<configuration> cells, const std::string& shard) {
+/// The cells that a shard computes: every n-th group of cells that share their exact reference, or
+/// every n-th cell where there are fewer groups.
+std::vector<asked_cell> shard_of(std::vector<asked_cell> cells, const std::string& shard) {
   if (shard.empty()) return cells;
   const std::size_t slash = shard.find('/');
   std::size_t i = 0, n = 0;
@@ -44,12 +49,36 @@ std::vector<configuration> shard_of(std::vector<configuration> cells, const std:
   if (slash == std::string::npos || !read(0, slash, i) || !read(slash + 1, shard.size(), n) ||
       i < 1 || i > n)
     throw usage_error("--shard takes I/N with I from 1 to N, such as 1/4, but not '" + shard + "'");
-  std::vector<configuration> ours;
-  for (std::size_t k = i - 1; k < cells.size(); k += n) ours.push_back(std::move(cells[k]));
+  std::vector<std::size_t> group_of;
+  std::string before;
+  for (const asked_cell& cell : cells) {
+    configuration twin = cell.what;
+    twin.format = "exact";
+    const std::string key = twin.key();
+    group_of.push_back(group_of.empty() ? 0 : group_of.back() + (key == before ? 0 : 1));
+    before = key;
+  }
+  if (group_of.back() + 1 < n)
+    for (std::size_t k = 0; k < group_of.size(); ++k) group_of[k] = k;
+  std::vector<asked_cell> ours;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (group_of[k] % n == i - 1) ours.push_back(std::move(cells[k]));
   if (ours.empty())
     throw usage_error("--shard " + shard + " has nothing to do: there are only " +
                       std::to_string(cells.size()) + " cells");
   return ours;
+}
+
+/// The cells of the options' lists, or of the grid.
+std::vector<asked_cell> asked_cells(const options& given) {
+  if (!given.grid.empty()) return read_grid(given.grid, given.shared_options);
+  std::vector<asked_cell> all;
+  for (const configuration& c : given.cells->cells())
+    all.push_back(
+        {c, given.shared_arguments + " --technique " + std::string(name_of(c.method)) +
+                (c.method == technique::lvsm ? " --layers " + std::to_string(c.layers) : "") +
+                " --format " + c.format});
+  return all;
 }
 
 /// What heads the input in reports: sizes, and where its depths lie.
@@ -99,7 +128,11 @@ void print(const report_section& s, const study_result& result, bool verified) {
 
 void study(const options& given) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<configuration> cells = shard_of(given.cells->cells(), given.shard);
+  const std::vector<asked_cell> asked = shard_of(asked_cells(given), given.shard);
+  std::vector<configuration> cells;
+  std::map<std::string, std::string> arguments;  // of each cell, by its configuration
+  for (const asked_cell& cell : asked)
+    cells.push_back(cell.what), arguments[cell.what.key()] = cell.arguments;
   std::vector<frame> frames;
   std::string command = "bitshade study";
   for (const std::string& name : given.scenes) {
@@ -122,8 +155,10 @@ void study(const options& given) {
   std::vector<study_result> done;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const std::string description = describe(frames[i]);
-    done.push_back(run_study(
-        frames[i], {cells, description, given.scene->threads, given.verify_plan}, results, bar));
+    done.push_back(
+        run_study(frames[i],
+                  {cells, description, given.scene->threads, !given.no_pictures, given.verify_plan},
+                  results, bar));
     const study_result& result = done.back();
     computed += result.computed;
     report_section s{{result.input, given.scenes[i], description},
@@ -134,10 +169,8 @@ void study(const options& given) {
                      "bitshade study " + shell_quoted(given.scenes[i]) + given.arguments};
     for (const row& r : result.rows) {
       s.cells[r.key] = results.pictures(r.key);
-      s.commands[r.key] = "bitshade render " + shell_quoted(given.scenes[i]) +
-                          given.shared_arguments + " --technique " + r.technique +
-                          (r.technique == "lvsm" ? " --layers " + std::to_string(r.layers) : "") +
-                          " --format " + r.format;
+      s.commands[r.key] =
+          "bitshade render " + shell_quoted(given.scenes[i]) + arguments.at(r.configuration);
     }
     sections.push_back(std::move(s));
   }
@@ -181,22 +214,44 @@ void add_study(CLI::App& app) {
       ->capture_default_str()
       ->option_text("DIR");
   command
+      ->add_option("--grid", given->grid,
+                   "The cells as a JSON file: products of lists, exclusions, single cells")
+      ->option_text("FILE");
+  command
       ->add_option("--shard", given->shard, "Part I of N of the cells; 'bitshade merge' joins them")
       ->option_text("I/N");
   command->add_flag("--verify-plan", given->verify_plan,
                     "Run every effect as well, and demand the same bits");
+  command->add_flag("--no-pictures", given->no_pictures,
+                    "Figures alone: for grids of thousands of cells");
   command->add_flag("--json", given->json, "Print JSON instead of tables");
   command->footer(
       "Examples:\n"
       "  bitshade study garden --layers 1,2,4 --formats unorm16,half,binary32,exact\n"
       "  bitshade study garden --splits 0.94 --overlap 0 --min-variance 1e-7\n"
       "  bitshade study model.obj --size 2048 --light 0.3,-1,0.2 --out results\n"
-      "  bitshade study captured.exr");
+      "  bitshade study captured.exr\n"
+      "  bitshade study garden --grid grid.json --shard 1/4 --out part1\n"
+      "A grid: {\"product\": {\"technique\": [\"vsm\", \"lvsm\"], \"layers\": [1, 2, 4],\n"
+      "\"format\": [\"unorm16\", \"half\"], \"overlap\": [0, 0.01]}, \"exclude\": [{…}],\n"
+      "\"cells\": [{…}]}; its fields are the options above.");
   command->callback([given, command] {
     if (given->scenes.empty()) given->scenes.push_back("garden");
-    given->arguments = arguments_of(*command, {"json", "verify-plan", "threads", "out"});
-    given->shared_arguments = arguments_of(*command, {"json", "verify-plan", "threads", "out",
-                                                      "shard", "techniques", "formats", "layers"});
+    given->arguments =
+        arguments_of(*command, {"json", "verify-plan", "threads", "out", "no-pictures"});
+    given->shared_arguments =
+        arguments_of(*command, {"json", "verify-plan", "threads", "out", "shard", "techniques",
+                                "formats", "layers", "grid", "no-pictures"});
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->count() == 0 || option->get_lnames().empty()) continue;
+      const std::string name = "--" + option->get_lnames().front();
+      const bool list = name == "--techniques" || name == "--formats" || name == "--layers";
+      if (list && !given->grid.empty())
+        throw usage_error(name + " and --grid contradict each other: put the list into the grid");
+      for (const std::string& value : option->results())
+        given->shared_options.push_back(option->get_expected_max() == 0 ? name
+                                                                        : name + "=" + value);
+    }
     study(*given);
   });
 }

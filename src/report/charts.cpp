@@ -9,11 +9,16 @@ namespace bitshade {
 
 using namespace svg_parts;
 
+namespace {
+/// Columns of a bar's label that leave room for the bar.
+constexpr std::size_t widest_label = 44;
+}  // namespace
+
 std::string svg(const bar_chart& chart) {
   std::size_t longest = 0;
   double most = 0;
   for (const bar& b : chart.bars) {
-    longest = std::max(longest, columns(b.label));
+    longest = std::max(longest, std::min(columns(b.label), widest_label));
     double sum = 0;
     for (const double v : b.parts) sum += v;
     most = std::max(most, sum);
@@ -36,7 +41,9 @@ std::string svg(const bar_chart& chart) {
   for (std::size_t i = 0; i < chart.bars.size(); ++i) {
     const bar& b = chart.bars[i];
     const double y = head + lane * static_cast<double>(i);
-    out += text(from - 8, y + 15, b.label, "end");
+    const bool whole = columns(b.label) <= widest_label;
+    out +=
+        text(from - 8, y + 15, whole ? b.label : b.label.substr(0, widest_label - 1) + "…", "end");
     double sum = 0;
     for (std::size_t k = 0; k < b.parts.size(); ++k) {
       const double begin = x.place(sum), end = x.place(sum += b.parts[k]);

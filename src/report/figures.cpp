@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <set>
 
 #include "io/base64.hpp"
 #include "io/text.hpp"
+#include "report/labels.hpp"
 #include "report/maps.hpp"
 #include "report/plot.hpp"
 #include "run/study.hpp"
@@ -21,6 +23,32 @@ std::vector<std::string> formats_of(const report_section& s) {
   return formats;
 }
 
+/// Bars and pictures that a page shows of a section; of more rows those of least total error.
+constexpr std::size_t most_bars = 48, most_pictures = 48;
+
+/// The end of a caption where not everything is shown.
+std::string of_all(std::size_t shown, std::size_t all) {
+  if (shown == all) return "";
+  return " Shown are the " + std::to_string(shown) + " of " + std::to_string(all) +
+         " configurations with the least total error.";
+}
+
+/// The least of the points above each x, in rising order: of several settings the best.
+void keep_least(series& line) {
+  std::vector<std::size_t> order(line.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::pair(line.points[i], i) < std::pair(line.points[j], j);
+  });
+  series kept{line.name, line.colour, line.line, {}, {}};
+  for (const std::size_t i : order) {
+    if (!kept.points.empty() && kept.points.back().first == line.points[i].first) continue;
+    kept.points.push_back(line.points[i]);
+    kept.labels.push_back(line.labels[i]);
+  }
+  line = kept;
+}
+
 /// Format error against layers, with the method's own error for comparison.
 std::string error_against_layers(const report_section& s) {
   std::set<double> counts;
@@ -32,13 +60,13 @@ std::string error_against_layers(const report_section& s) {
   p.x = {"layers", true, {counts.begin(), counts.end()}};
   p.y = {"error (RMSE of visibility)", true, {}};
   series method{"method (exact)", -1, true, {}, {}};
-  std::set<int> done;
+  std::set<std::string> done;
   int colour = 0;
   for (const std::string& format : formats_of(s)) {
     series line{format, colour, true, {}, {}};
     for (const row& r : s.rows) {
       if (r.technique != "lvsm" || r.format != format) continue;
-      if (done.insert(r.layers).second) {
+      if (done.insert(method_of(r)).second) {
         method.points.push_back({r.layers, r.figures.method.rmse});
         method.labels.push_back("method, " + std::to_string(r.layers) +
                                 " layers: " + brief(r.figures.method.rmse));
@@ -47,10 +75,10 @@ std::string error_against_layers(const report_section& s) {
       line.points.push_back({r.layers, r.figures.format.rmse});
       line.labels.push_back(label_of(r) + ": " + brief(r.figures.format.rmse));
     }
-    std::sort(line.points.begin(), line.points.end());
+    keep_least(line);
     if (!line.points.empty()) p.lines.push_back(line), ++colour;
   }
-  std::sort(method.points.begin(), method.points.end());
+  keep_least(method);
   p.lines.push_back(method);
   return figure(svg(p),
                 caption("What layers buy.",
@@ -98,17 +126,22 @@ std::string area_bars(const report_section& s) {
   chart.name = "Bleed area and acne area of every configuration";
   chart.unit = "share of receivers (%)";
   chart.parts = {"bleeds: dark in truth, lit here", "acne: lit in truth, dark here"};
-  for (const row& r : s.rows)
+  const std::vector<row> rows = telling_rows(s.rows, most_bars);
+  const std::vector<std::string> labels = distinct_labels(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const row& r = rows[i];
     chart.bars.push_back(
-        {label_of(r),
+        {labels[i],
          {r.figures.bleed_area * 100, r.figures.acne_area * 100},
          r.figures.bleed_area + r.figures.acne_area == 0
              ? "none"
              : percent(r.figures.bleed_area) + " + " + percent(r.figures.acne_area)});
+  }
   return figure(svg(chart), caption("Where a user would see it.",
                                     "Share of receivers whose visibility is wrong by more than "
                                     "1/255 although the truth is fully "
-                                    "dark (bleeding) or fully lit (acne).",
+                                    "dark (bleeding) or fully lit (acne)." +
+                                        of_all(rows.size(), s.rows.size()),
                                     s.command));
 }
 
@@ -117,9 +150,12 @@ std::string time_bars(const report_section& s) {
   chart.name = "Time to make and to sample each map";
   chart.unit = "milliseconds, native arithmetic on this machine's processor";
   chart.parts = {"generation of the map", "shading of the view"};
-  for (const row& r : s.rows) {
+  const std::vector<row> rows = telling_rows(s.rows, most_bars);
+  const std::vector<std::string> labels = distinct_labels(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const row& r = rows[i];
     if (r.format == "exact") continue;  // its own arithmetic, not a device's
-    chart.bars.push_back({label_of(r),
+    chart.bars.push_back({labels[i],
                           {r.map_seconds * 1e3, r.shade_seconds * 1e3},
                           brief((r.map_seconds + r.shade_seconds) * 1e3)});
   }
@@ -127,7 +163,8 @@ std::string time_bars(const report_section& s) {
   return figure(svg(chart), caption("What it costs in time.",
                                     "Once per configuration, without the cost of emulating a "
                                     "format; read ratios, not absolute "
-                                    "times. Exact arithmetic is left out: no device runs it.",
+                                    "times. Exact arithmetic is left out: no device runs it." +
+                                        of_all(rows.size(), s.rows.size()),
                                     s.command));
 }
 
@@ -192,13 +229,16 @@ std::string slider_of(const report_section& s) {
   truth("truth", "geometric truth");
   truth("truth-pcf", "percentage-closer truth");
   const std::size_t first = cells.size();
-  for (const row& r : s.rows) {
+  const std::vector<row> rows = telling_rows(s.rows, most_pictures);
+  const std::vector<std::string> labels = distinct_labels(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const row& r = rows[i];
     const auto pictures = s.cells.find(r.key);
     if (pictures == s.cells.end()) continue;
     nlohmann::ordered_json files = nlohmann::ordered_json::object();
     for (const auto& [kind, png] : pictures->second) files[kind] = data_uri(png);
     const auto command = s.commands.find(r.key);
-    cells.push_back({{"label", label_of(r)},
+    cells.push_back({{"label", labels[i]},
                      {"command", command == s.commands.end() ? s.command : command->second},
                      {"pictures", files}});
   }

@@ -8,6 +8,7 @@
 
 #include "io/atomic_file.hpp"
 #include "io/text.hpp"
+#include "report/labels.hpp"
 #include "run/listing.hpp"
 
 namespace bitshade {
@@ -70,15 +71,18 @@ void write_results(const fs::path& folder, const report_head& head,
     stems.insert(stem);
     for (const auto& [kind, png] : s.pictures)
       write_file(pictures / (stem + "-" + kind + ".png"), png);
-    for (const row& r : s.rows) {
+    const std::vector<std::string> settings = settings_of(s.rows);
+    for (std::size_t i = 0; i < s.rows.size(); ++i) {
+      const row& r = s.rows[i];
       rows.push_back(r);
       const auto files = s.cells.find(r.key);
       if (files == s.cells.end()) continue;
       const std::string layers = r.technique == "lvsm" ? std::to_string(r.layers) : "";
+      const std::string other = settings[i].empty() ? "" : "-" + r.key.substr(0, 8);
       for (const auto& [kind, png] : files->second)
-        write_file(
-            pictures / (stem + "-" + r.technique + layers + "-" + r.format + "-" + kind + ".png"),
-            png);
+        write_file(pictures / (stem + "-" + r.technique + layers + "-" + r.format + other + "-" +
+                               kind + ".png"),
+                   png);
     }
   }
   write_file(folder / "results.csv", to_csv(rows));

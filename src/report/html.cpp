@@ -8,6 +8,7 @@
 #include "io/text.hpp"
 #include "report/figures.hpp"
 #include "report/html_table.hpp"
+#include "report/labels.hpp"
 #include "report/page.hpp"
 #include "report/plot.hpp"
 #include "report/summary.hpp"
@@ -25,7 +26,7 @@ std::string method_table(const report_section& s) {
   std::string body;
   std::set<std::string> seen;
   for (const row& r : s.rows) {
-    if (!seen.insert(r.technique + std::to_string(r.layers)).second) continue;
+    if (!seen.insert(method_of(r)).second) continue;
     const measures& m = r.figures;
     body += table_row(word_cell(r.technique) + layers_cell(r) + level_cell(m.method.rmse) +
                       level_cell(m.method.largest) + level_cell(m.method.p999) +
@@ -44,13 +45,17 @@ std::string method_table(const report_section& s) {
 }
 
 std::string format_table(const report_section& s) {
+  const std::vector<std::string> settings = settings_of(s.rows);
+  const bool told = std::any_of(settings.begin(), settings.end(),
+                                [](const std::string& text) { return !text.empty(); });
   std::string body;
-  for (const row& r : s.rows) {
+  for (std::size_t i = 0; i < s.rows.size(); ++i) {
+    const row& r = s.rows[i];
     const measures& m = r.figures;
     body += table_row(word_cell(r.technique) + layers_cell(r) + word_cell(r.format) +
-                      level_cell(m.format.rmse) + level_cell(m.format.largest) +
-                      level_cell(m.format.p999) + level_cell(m.total.rmse) +
-                      number_cell(m.bleed_area, percent(m.bleed_area)) +
+                      (told ? word_cell(settings[i]) : "") + level_cell(m.format.rmse) +
+                      level_cell(m.format.largest) + level_cell(m.format.p999) +
+                      level_cell(m.total.rmse) + number_cell(m.bleed_area, percent(m.bleed_area)) +
                       number_cell(m.acne_area, percent(m.acne_area)) +
                       number_cell(static_cast<double>(m.violations), std::to_string(m.violations)) +
                       (r.bytes_per_texel == 0
@@ -60,23 +65,25 @@ std::string format_table(const report_section& s) {
                       number_cell(r.nanoseconds_per_sample(), brief(r.nanoseconds_per_sample())) +
                       number_cell(r.emulation_seconds, brief(r.emulation_seconds * 1e3)));
   }
-  return sortable_table(
-      {{"technique", "", true},
-       {"layers", ""},
-       {"format", "", true},
-       {"RMSE", "of the format alone"},
-       {"largest", "of the format alone, at the worst pixel"},
-       {"99.9 %", "99.9 % of the pixels have at most this format error"},
-       {"total RMSE", "technique and format against the geometric truth"},
-       {"bleed %", "share of receivers that are dark in truth and lit by more than 1/255"},
-       {"acne %", "share of receivers that are lit in truth and darker by more than 1/255"},
-       {"below PCF", "pixels where the upper bound does not hold"},
-       {"B/texel", "bytes per texel, all layers and channels"},
-       {"ms/map", "generation of the map, native arithmetic"},
-       {"ns/sample", "shading, native arithmetic"},
-       {"emulation",
-        "milliseconds that rounding to the format cost here; a device does not pay it"}},
-      body);
+  std::vector<table_column> heads{
+      {"technique", "", true},
+      {"layers", ""},
+      {"format", "", true},
+      {"RMSE", "of the format alone"},
+      {"largest", "of the format alone, at the worst pixel"},
+      {"99.9 %", "99.9 % of the pixels have at most this format error"},
+      {"total RMSE", "technique and format against the geometric truth"},
+      {"bleed %", "share of receivers that are dark in truth and lit by more than 1/255"},
+      {"acne %", "share of receivers that are lit in truth and darker by more than 1/255"},
+      {"below PCF", "pixels where the upper bound does not hold"},
+      {"B/texel", "bytes per texel, all layers and channels"},
+      {"ms/map", "generation of the map, native arithmetic"},
+      {"ns/sample", "shading, native arithmetic"},
+      {"emulation",
+       "milliseconds that rounding to the format cost here; a device does not pay it"}};
+  if (told)
+    heads.insert(heads.begin() + 3, {"settings", "what tells it from others of its name", true});
+  return sortable_table(heads, body);
 }
 
 std::string effects_list(const report_section& s) {
@@ -102,9 +109,10 @@ std::string effects_list(const report_section& s) {
 
 std::string notes_of(const report_section& s) {
   std::vector<std::string> notes;
-  for (const row& r : s.rows)
-    for (const std::string& n : r.notes) {
-      const std::string text = label_of(r) + ": " + n;
+  const std::vector<std::string> labels = distinct_labels(s.rows);
+  for (std::size_t i = 0; i < s.rows.size(); ++i)
+    for (const std::string& n : s.rows[i].notes) {
+      const std::string text = labels[i] + ": " + n;
       if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
     }
   if (notes.empty()) return "";

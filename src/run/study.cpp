@@ -103,6 +103,17 @@ picture_files input_pictures(const frame& input, references& known, const config
           {"depth", encode_png(depth_map(input))}};
 }
 
+picture_files cell_pictures(const frame& input, const configuration& c, const cell& done,
+                            const std::vector<double>& geometric, const cell& exact) {
+  const int w = input.view_width, h = input.view_height;
+  const auto seen = without_gaps(done.visibility);
+  picture_files files{{"visibility", encode_png(visibility_map(seen, w, h))},
+                      {"error", encode_png(error_map(seen, without_gaps(geometric), w, h))}};
+  if (!c.exact())
+    files["format-error"] = encode_png(error_map(seen, without_gaps(exact.visibility), w, h));
+  return files;
+}
+
 }  // namespace
 
 std::string digest_of(const frame& input) {
@@ -170,7 +181,7 @@ study_result run_study(const frame& input, const study_request& request, databas
     }
     if (!described) {
       results.store_input({result.input, input.name, request.description},
-                          input_pictures(input, known, c));
+                          request.pictures ? input_pictures(input, known, c) : picture_files{});
       described = true;
     }
     const plan effects = make_plan(input, c, request.threads);
@@ -213,12 +224,8 @@ study_result run_study(const frame& input, const study_request& request, databas
       if constexpr (std::is_same_v<decltype(value), double&>) value += 0.0;
     });
 
-    const int w = input.view_width, h = input.view_height;
-    const auto seen = without_gaps(done.visibility);
-    picture_files files{{"visibility", encode_png(visibility_map(seen, w, h))},
-                        {"error", encode_png(error_map(seen, without_gaps(geometric), w, h))}};
-    if (!c.exact())
-      files["format-error"] = encode_png(error_map(seen, without_gaps(exact.visibility), w, h));
+    const picture_files files =
+        request.pictures ? cell_pictures(input, c, done, geometric, exact) : picture_files{};
     results.store_cell(r, files);
     result.rows.push_back(r);
     ++result.computed;

@@ -18,6 +18,7 @@ struct study_request {
   std::vector<configuration> cells;
   std::string description;  ///< JSON for the database: sizes, how to reproduce
   int threads = 0;
+  bool pictures = true;      ///< stored beside the figures
   bool verify_plan = false;  ///< run everything as well, and demand equal bits
 };
 
