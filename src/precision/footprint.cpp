@@ -6,7 +6,7 @@
 
 #include "bitshade/study/bounds.hpp"
 
-namespace bitshade::precision {
+namespace bitshade::bit_search {
 
 namespace {
 
@@ -191,4 +191,4 @@ worst_case worst_footprint(const footprint_question& question) {
   return other.error.size() > worst.error.size() ? other : worst;
 }
 
-}  // namespace bitshade::precision
+}  // namespace bitshade::bit_search

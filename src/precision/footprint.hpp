@@ -5,7 +5,7 @@
 
 #include "precision/store.hpp"
 
-namespace bitshade::precision {
+namespace bitshade::bit_search {
 
 /// What a search is to break.
 ///
@@ -52,4 +52,4 @@ struct worst_case {
 /// Source   docs/theory.md sections 1, 6 and 9.
 worst_case worst_footprint(const footprint_question& question);
 
-}  // namespace bitshade::precision
+}  // namespace bitshade::bit_search

@@ -6,7 +6,7 @@
 
 #include "io/text.hpp"
 
-namespace bitshade::precision {
+namespace bitshade::bit_search {
 
 namespace {
 
@@ -150,4 +150,4 @@ std::vector<std::string> deviations(std::span<const needed_bits> curve) {
   return said;
 }
 
-}  // namespace bitshade::precision
+}  // namespace bitshade::bit_search

@@ -8,7 +8,7 @@
 #include "bitshade/study/precision.hpp"
 #include "precision/footprint.hpp"
 
-namespace bitshade::precision {
+namespace bitshade::bit_search {
 
 /// One question, answered twice.
 ///
@@ -45,4 +45,4 @@ fitted_line line_through(std::span<const needed_bits> curve, double needed_bits:
 /// Why a curve is no straight line of slope -2, from its own numbers: sentences.
 std::vector<std::string> deviations(std::span<const needed_bits> curve);
 
-}  // namespace bitshade::precision
+}  // namespace bitshade::bit_search

@@ -1,6 +1,6 @@
 #include "precision/store.hpp"
 
-namespace bitshade::precision {
+namespace bitshade::bit_search {
 
 namespace {
 
@@ -35,4 +35,4 @@ double stored_units(const moment_store& store, double x) {
   return std::ldexp(std::nearbyint(fraction * steps) / steps, exponent);
 }
 
-}  // namespace bitshade::precision
+}  // namespace bitshade::bit_search

@@ -7,7 +7,7 @@
 
 #include "bitshade/interop/rational.hpp"
 
-namespace bitshade::precision {
+namespace bitshade::bit_search {
 
 /// What rounds a moment in [0,1], to nearest even.
 ///
@@ -44,4 +44,4 @@ inline double unit_of(const moment_store& store) {
   return store.floating ? 1.0 : static_cast<double>(store.steps);
 }
 
-}  // namespace bitshade::precision
+}  // namespace bitshade::bit_search

@@ -8,7 +8,7 @@
 #include "support/catch.hpp"
 
 using namespace bitshade;
-using namespace bitshade::precision;
+using namespace bitshade::bit_search;
 
 namespace {
 
