@@ -13,6 +13,7 @@ void add_study(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_render(CLI::App& app);
 void add_plan(CLI::App& app);
+void add_precision(CLI::App& app);
 void add_depth(CLI::App& app);
 void add_round(CLI::App& app);
 void add_formats(CLI::App& app);

@@ -25,6 +25,7 @@ void declare(CLI::App& app) {
   add_merge(app);
   add_render(app);
   add_plan(app);
+  add_precision(app);
   add_depth(app);
   add_round(app);
   add_formats(app);

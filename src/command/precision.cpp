@@ -1,0 +1,212 @@
+// `bitshade precision`: the fewest bits that keep an error, predicted and found.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "command/commands.hpp"
+#include "command/study_options.hpp"
+#include "io/atomic_file.hpp"
+#include "io/build.hpp"
+#include "io/error.hpp"
+#include "io/numbers.hpp"
+#include "io/text.hpp"
+#include "report/precision.hpp"
+
+namespace bitshade::command {
+namespace {
+
+struct options {
+  std::string layers = "1,2,4,8", floors = "1e-4,9e-6", roundings = "1,3";
+  double tolerated = 1.0 / 255, overlap = 0, exponent = 5, reach = 0;
+  bool adversarial = false, joint = false, json = false;
+  std::string out;
+  std::string arguments;
+};
+
+std::vector<int> whole_numbers(const std::string& text, const std::string& option, int most) {
+  std::vector<int> all;
+  for (const double n : parse_numbers(text, option, 1, 16)) {
+    if (n != std::floor(n) || n < 1 || n > most) {
+      throw usage_error(option + " takes whole numbers from 1 to " + std::to_string(most) +
+                        " between commas, but not " + shortest(n));
+    }
+    all.push_back(static_cast<int>(n));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+struct asked {
+  std::vector<int> layers, roundings;
+  std::vector<double> floors;
+};
+
+asked checked(const options& given) {
+  asked a;
+  a.layers = whole_numbers(given.layers, "--layers", 256);
+  a.roundings = whole_numbers(given.roundings, "--roundings", 6);
+  a.floors = parse_numbers(given.floors, "--min-variance", 1, 8);
+  for (const double f : a.floors) {
+    if (!(f >= 1e-12 && f <= 0.01)) {
+      throw usage_error(
+          "--min-variance " + shortest(f) +
+          " is outside 1e-12 to 0.01: without a floor no number of bits suffices, and "
+          "a higher one hides every shadow");
+    }
+  }
+  if (!(given.tolerated > 0 && given.tolerated < 0.5)) {
+    throw usage_error("--tolerated " + shortest(given.tolerated) +
+                      " is outside 0 to 0.5: one step of an 8-bit display is 0.00392");
+  }
+  if (!(given.overlap >= 0 && given.overlap <= 0.5)) {
+    throw usage_error("--overlap " + shortest(given.overlap) + " is outside 0 to 0.5");
+  }
+  if (!(given.exponent > 0 && given.exponent <= 40)) {
+    throw usage_error("--exponent " + shortest(given.exponent) + " is outside 0 to 40");
+  }
+  if (!(given.reach >= 0 && given.reach <= 0.5)) {
+    throw usage_error("--reach " + shortest(given.reach) + " is outside 0 to 0.5");
+  }
+  return a;
+}
+
+/// One curve a floor and number of roundings; layers that the floor fills are left out.
+void search_curves(const options& given, const asked& a, precision_findings& found) {
+  for (const double floor : a.floors) {
+    for (const int k : a.roundings) {
+      std::vector<bit_search::needed_bits> curve;
+      for (const int n : a.layers) {
+        precision_question q;
+        q.tolerated = given.tolerated;
+        q.floor_deviation = std::sqrt(floor);
+        q.roundings = k;
+        try {
+          curve.push_back(bit_search::bits_needed(q, n, given.overlap));
+        } catch (const std::invalid_argument& e) {
+          if (curve.empty()) throw usage_error(e.what());
+        }
+      }
+      found.curves.push_back(std::move(curve));
+    }
+  }
+}
+
+void search_stages(const options& given, const asked& a, precision_findings& found) {
+  for (const double floor : a.floors) {
+    bit_search::stage_question q;
+    q.tolerated = given.tolerated;
+    q.floor_deviation = std::sqrt(floor);
+    q.overlap = given.overlap;
+    q.exponent = given.exponent;
+    for (const int n : a.layers) {
+      q.layers = n;
+      if (q.floor_deviation * n > 0.2) continue;
+      found.stages.push_back(bit_search::weight_bits(q));
+      found.stages.push_back(bit_search::shading_bits(q));
+    }
+    q.layers = 1;
+    if (q.floor_deviation * given.exponent < 0.4) found.stages.push_back(bit_search::evsm_bits(q));
+  }
+}
+
+void answer(const options& given) {
+  const asked a = checked(given);
+  const std::string command = "bitshade precision" + given.arguments;
+  const std::filesystem::path folder = given.out;
+  precision_findings found;
+  found.tolerated = given.tolerated;
+  const bool everything = !given.adversarial && !given.joint;
+  if (!given.out.empty()) make_output_folder(folder);
+  if (everything || given.adversarial) {
+    search_curves(given, a, found);
+    search_stages(given, a, found);
+  }
+  if (everything || given.joint) {
+    found.joint.tolerated = given.tolerated;
+    found.joint.reach = given.reach;
+    found.joint.layers = a.layers;
+    found.joint.deviations.clear();
+    for (const double f : a.floors) found.joint.deviations.push_back(std::sqrt(f));
+    found.chart = bit_search::joint_chart(found.joint);
+  }
+  if (!given.out.empty()) {
+    const report_head head{command, program_version(), compiler_description(),
+                           machine_description()};
+    std::string body;
+    for (const report_part& part : precision_parts(found, command)) {
+      body += "<h2>" + part.title + "</h2><p>" + part.text + "</p>" + part.body;
+    }
+    write_file(folder / "precision.csv", precision_csv(found));
+    write_file(folder / "precision.json", precision_json(found).dump(1) + "\n");
+    write_file(folder / "precision.html", html_page(head, "Bits that a map needs", body));
+  }
+  if (given.json) {
+    std::cout << precision_json(found).dump(1) << '\n';
+    return;
+  }
+  std::cout << precision_text(found);
+  if (!given.out.empty()) {
+    std::cout << "The plots are in " << (folder / "precision.html").string()
+              << "; CSV and JSON lie beside it.\n";
+  }
+}
+
+}  // namespace
+
+void add_precision(CLI::App& app) {
+  auto given = std::make_shared<options>();
+  CLI::App* command = app.add_subcommand(
+      "precision",
+      "The fewest bits that keep an error, predicted and found\n"
+      "Says for each stage, number of layers and floor how many bits keep every visibility within "
+      "an error: by the bound, which holds for every footprint, and by a search for footprints "
+      "that "
+      "break fewer, judged in exact arithmetic. Also draws floor, overlap, layers and bits "
+      "together.");
+  options* const o = given.get();
+  command->add_option("--layers", o->layers, "Layers of an LVSM")
+      ->capture_default_str()
+      ->option_text("LIST");
+  command->add_option("--min-variance", o->floors, "Floors (sigma_min^2), in depth^2")
+      ->capture_default_str()
+      ->option_text("LIST");
+  command
+      ->add_option("--roundings", o->roundings,
+                   "Roundings on the way: 1 the store, 3 with a blur of two passes")
+      ->capture_default_str()
+      ->option_text("LIST");
+  command->add_option("--tolerated", o->tolerated, "Error of visibility to keep")
+      ->default_str("1/255")
+      ->option_text("N");
+  command->add_option("--overlap", o->overlap, "Overlap of layers (delta), in depth")
+      ->capture_default_str()
+      ->option_text("N");
+  command
+      ->add_option("--reach", o->reach,
+                   "Filter radius times receiver slope, for the overlap of --joint")
+      ->capture_default_str()
+      ->option_text("N");
+  command->add_option("--exponent", o->exponent, "c of EVSM")
+      ->capture_default_str()
+      ->option_text("N");
+  command->add_flag("--adversarial", o->adversarial, "Only the search on footprints");
+  command->add_flag("--joint", o->joint, "Only floor, overlap, layers and bits together");
+  command->add_option("--out", o->out, "Folder for precision.html, .csv and .json")
+      ->option_text("DIR");
+  command->add_flag("--json", o->json, "Print JSON instead of text");
+  command->footer(
+      "Examples:\n"
+      "  bitshade precision --layers 1,2,4,8 --min-variance 1e-4 --out bits\n"
+      "  bitshade precision --joint --min-variance 9e-4,1e-4,9e-6 --layers 1,2,4,8,16");
+  command->callback([given, command] {
+    given->arguments = arguments_of(*command, {"json"});
+    answer(*given);
+  });
+}
+
+}  // namespace bitshade::command

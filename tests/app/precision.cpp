@@ -1,0 +1,43 @@
+// `bitshade precision` as its user sees it: a slope of -2, a joint chart, a cure for each mistake.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/catch.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace bitshade::test;
+using nlohmann::json;
+
+TEST_CASE("precision prints the curve's slope and writes plots, CSV and JSON") {
+  const temporary_folder folder;
+  const auto out = (folder.path() / "bits").string();
+  const auto done = run_bitshade({"precision", "--layers", "1,2,4", "--min-variance", "9e-6",
+                                  "--roundings", "1", "--json", "--out", out});
+  CAPTURE(done.err);
+  REQUIRE(done.status == 0);
+  const json found = json::parse(done.out);
+  REQUIRE(found["curves"].size() == 1);
+  CHECK(std::fabs(found["curves"][0]["slope_found"].get<double>() + 2) < 0.05);
+  for (const auto& point : found["curves"][0]["points"]) {
+    CHECK(point["found"].get<double>() <= point["predicted"].get<double>());
+  }
+  CHECK(found["joint"].size() == 3);
+  CHECK(json::parse(contents(folder.path() / "bits" / "precision.json")) == found);
+  CHECK(contents(folder.path() / "bits" / "precision.csv").starts_with("where,technique"));
+  CHECK(contents(folder.path() / "bits" / "precision.html").find("<svg") != std::string::npos);
+}
+
+TEST_CASE("precision refuses what no number of bits can answer") {
+  const auto refused = [](std::vector<std::string> arguments, const std::string& cure) {
+    arguments.insert(arguments.begin(), "precision");
+    const auto done = run_bitshade(arguments);
+    CAPTURE(done.err);
+    CHECK(done.status == 2);
+    CHECK(done.err.find(cure) != std::string::npos);
+  };
+  refused({"--min-variance", "0"}, "without a floor no number of bits suffices");
+  refused({"--layers", "2.5"}, "whole numbers");
+  refused({"--tolerated", "2"}, "0.00392");
+  refused({"--layers", "200", "--min-variance", "1e-4"}, "fewer layers");
+}
