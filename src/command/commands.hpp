@@ -13,6 +13,8 @@ void add_study(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_render(CLI::App& app);
 void add_plan(CLI::App& app);
+void add_blame(CLI::App& app);
+void add_certify(CLI::App& app);
 void add_precision(CLI::App& app);
 void add_depth(CLI::App& app);
 void add_round(CLI::App& app);

@@ -25,6 +25,8 @@ void declare(CLI::App& app) {
   add_merge(app);
   add_render(app);
   add_plan(app);
+  add_blame(app);
+  add_certify(app);
   add_precision(app);
   add_depth(app);
   add_round(app);

@@ -1,0 +1,214 @@
+// `bitshade blame`: which stage is guilty of a format's error.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command/commands.hpp"
+#include "command/format_options.hpp"
+#include "command/scene_options.hpp"
+#include "command/study_options.hpp"
+#include "io/atomic_file.hpp"
+#include "io/build.hpp"
+#include "io/error.hpp"
+#include "io/text.hpp"
+#include "report/figures.hpp"
+#include "report/folder.hpp"
+#include "report/maps.hpp"
+#include "report/plot.hpp"
+#include "report/text_table.hpp"
+#include "run/blame.hpp"
+#include "run/study.hpp"
+
+namespace bitshade::command {
+namespace {
+
+struct options {
+  std::string scene = "garden";
+  std::shared_ptr<scene_options> how;
+  std::shared_ptr<study_options> cell;
+  std::string out = "bitshade-out";
+  std::string shading, arguments;
+  int weight_bits = 0;
+  bool json = false;
+};
+
+stage_choices choices_of(const options& given) {
+  stage_choices choices;
+  if (given.weight_bits < 0 || given.weight_bits > 23) {
+    throw usage_error("--weight-bits " + std::to_string(given.weight_bits) +
+                      " is outside 0 to 23: devices have 8, and 0 leaves the arithmetic's own");
+  }
+  choices.weight_bits = given.weight_bits;
+  if (!given.shading.empty()) {
+    const auto format = choose_format(given.shading);
+    if (format.components.size() != 1) {
+      throw usage_error("--shading " + given.shading + " is no format of one number: half, say");
+    }
+    choices.shading = format.components.front();
+  }
+  return choices;
+}
+
+std::string text_of(const blame& b, const configuration& c) {
+  std::vector<text_line> lines{
+      {"stage", "alone: rmse", "largest", "p99.9", "share", "all but it: rmse", "largest"}};
+  const auto all = [&](const error_figures& e) {
+    return text_line{brief(e.rmse), brief(e.largest), brief(e.p999)};
+  };
+  for (const stage_blame& s : b.stages) {
+    const text_line alone = all(s.alone);
+    lines.push_back({std::string(name_of(s.which)), alone[0], alone[1], alone[2],
+                     percent(b.share(s)) + " %", brief(s.without.rmse), brief(s.without.largest)});
+  }
+  const text_line whole = all(b.whole);
+  lines.push_back({"all of them", whole[0], whole[1], whole[2], "", "", ""});
+  const stage_blame& worst = b.guiltiest();
+  std::string out = label_of(c) + ": error against exact arithmetic, stage by stage\n" +
+                    text_table(lines, {0}) + "\n";
+  const std::string sentence =
+      b.whole.rmse == 0
+          ? "No stage changes a bit of the picture."
+          : "The " + std::string(name_of(worst.which)) + " is guilty: alone it makes " +
+                percent(b.share(worst)) + " % of the summed squares; were it exact, " +
+                brief(worst.without.rmse) + " RMSE would be left of " + brief(b.whole.rmse) + ".";
+  for (const auto& line : wrap(sentence, 80)) out += line + "\n";
+  return out;
+}
+
+std::string bars_of(const blame& b, const std::string& title) {
+  bar_chart chart{title, "RMSE of visibility", {}, {}};
+  for (const stage_blame& s : b.stages) {
+    chart.bars.push_back(
+        {std::string(name_of(s.which)) + " alone", {s.alone.rmse}, brief(s.alone.rmse)});
+  }
+  chart.bars.push_back({"all in the format", {b.whole.rmse}, brief(b.whole.rmse)});
+  for (const stage_blame& s : b.stages) {
+    chart.bars.push_back(
+        {"all but " + std::string(name_of(s.which)), {s.without.rmse}, brief(s.without.rmse)});
+  }
+  return svg(chart);
+}
+
+nlohmann::ordered_json figures_of(const error_figures& e) {
+  return {{"rmse", e.rmse}, {"largest", e.largest}, {"p999", e.p999}, {"mean", e.signed_mean}};
+}
+
+std::vector<double> without_gaps(std::vector<double> values) {
+  for (double& v : values) {
+    if (v != v) v = 1;
+  }
+  return values;
+}
+
+void find_guilt(const options& given) {
+  const std::vector<configuration> cells = given.cell->cells();
+  if (cells.size() != 1) {
+    throw usage_error("blame takes one configuration apart, but these options name " +
+                      std::to_string(cells.size()) +
+                      ": give one technique, one format and one layer count");
+  }
+  const configuration& c = cells.front();
+  const stage_choices choices = choices_of(given);
+  const frame input = load_input(given.scene, *given.how);
+  check_study_memory(input, cells);
+  const std::filesystem::path folder = given.out;
+  const blame b = blame_of(input, c, choices, given.how->threads);
+  make_output_folder(folder);
+
+  const std::string command = "bitshade blame " + shell_quoted(given.scene) + given.arguments;
+  const std::string layers = c.method == technique::lvsm ? std::to_string(c.layers) : "";
+  const std::string stem = file_stem(given.scene) + "-" + std::string(name_of(c.method)) + layers +
+                           "-" + c.format + "-blame";
+  const auto exact = without_gaps(b.exact);
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  std::string body = figure(bars_of(b, "Errors of " + label_of(c)),
+                            caption("Each stage alone in the format, and all but it.",
+                                    "Against the same run with every stage exact.", command));
+  std::string list;
+  const auto map = [&](const std::string& name, const std::vector<double>& values,
+                       const std::string& words) {
+    const auto path = (folder / (stem + "-" + name + ".png")).string();
+    const std::string png =
+        encode_png(error_map(without_gaps(values), exact, input.view_width, input.view_height));
+    write_file(path, png);
+    files[name] = path;
+    list += "  " + path + "\n";
+    body +=
+        figure("<img class=\"still\" alt=\"" + escaped(words) + "\" src=\"" + data_uri(png) + "\">",
+               caption(words, "Error of visibility against exact arithmetic.", command));
+  };
+  map("all", b.visibility, "Every stage in " + c.format);
+  for (const stage_blame& s : b.stages) {
+    map(std::string(name_of(s.which)), s.visibility,
+        "The " + std::string(name_of(s.which)) + " alone in the format");
+  }
+  const report_head head{command, program_version(), compiler_description(), machine_description()};
+  const std::string page = (folder / (stem + ".html")).string();
+  write_file(page, html_page(head, "Which stage is guilty: " + label_of(c), body));
+  files["report"] = page;
+
+  if (given.json) {
+    nlohmann::ordered_json stages = nlohmann::ordered_json::array();
+    for (const stage_blame& s : b.stages) {
+      stages.push_back({{"stage", name_of(s.which)},
+                        {"alone", figures_of(s.alone)},
+                        {"without", figures_of(s.without)},
+                        {"share", b.share(s)}});
+    }
+    std::cout << nlohmann::ordered_json{{"scene", given.scene},
+                                        {"configuration", c.key()},
+                                        {"weight_bits", given.weight_bits},
+                                        {"shading", given.shading},
+                                        {"whole", figures_of(b.whole)},
+                                        {"stages", stages},
+                                        {"files", files}}
+                     .dump(1)
+              << '\n';
+    return;
+  }
+  std::cout << text_of(b, c) << "Maps and bars:\n" << list << "  " << page << '\n';
+}
+
+}  // namespace
+
+void add_blame(CLI::App& app) {
+  auto given = std::make_shared<options>();
+  CLI::App* command = app.add_subcommand(
+      "blame",
+      "Which stage is guilty of how much of a format's error\n"
+      "Runs one configuration with each stage alone in the format and with each stage alone exact: "
+      "Lloyd's reduction, store, blur, mips, filter weights, filter, shading. A table here; bars "
+      "and maps of each stage's error as PNG and HTML in the folder of --out.");
+  command->add_option("SCENE", given->scene, scene_argument_help())->capture_default_str();
+  study_options initial;
+  initial.techniques = "vsm";
+  initial.formats = "unorm16";
+  initial.layers = "2";
+  given->cell = add_study_options(*command, initial);
+  given->how = add_scene_options(*command);
+  command
+      ->add_option("--weight-bits", given->weight_bits,
+                   "Bits of bilinear fractions; devices have 8, 0: as computed")
+      ->capture_default_str()
+      ->option_text("N");
+  command
+      ->add_option("--shading", given->shading,
+                   "Arithmetic that shades, such as half; else as computed")
+      ->option_text("FORMAT");
+  command->add_option("--out", given->out, "Folder for the maps")
+      ->capture_default_str()
+      ->option_text("DIR");
+  command->add_flag("--json", given->json, "Print JSON instead of text");
+  command->footer(
+      "Examples:\n"
+      "  bitshade blame garden --technique vsm --format unorm16\n"
+      "  bitshade blame slope --technique lvsm --layers 4 --weight-bits 8 --shading half");
+  command->callback([given, command] {
+    given->arguments = arguments_of(*command, {"json", "out"});
+    find_guilt(*given);
+  });
+}
+
+}  // namespace bitshade::command

@@ -1,0 +1,132 @@
+// Stages in the format or exact: all of them are the plain run, none is the exact one.
+#include <bit>
+
+#include "io/error.hpp"
+#include "run/blame.hpp"
+#include "run/stages.hpp"
+#include "support/catch.hpp"
+#include "unit/run/frames.hpp"
+
+using namespace bitshade;
+
+namespace {
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::bit_cast<std::uint64_t>(a[i]) != std::bit_cast<std::uint64_t>(b[i])) return false;
+  }
+  return true;
+}
+
+cell plain(const frame& scene, const configuration& how) {
+  return run_pipeline(scene, how, make_plan(scene, how));
+}
+
+std::vector<configuration> configurations() {
+  std::vector<configuration> all;
+  configuration c;
+  c.blur_taps = 5;
+  all.push_back(c);
+  c.method = technique::lvsm;
+  c.layers = 3;
+  c.overlap = 0.0625;
+  all.push_back(c);
+  c.transition = true;
+  c.bleeding_reduction = 0.2;
+  all.push_back(c);
+  c.transition = false;
+  c.filter = texel_filter::trilinear;
+  all.push_back(c);
+  c.max_anisotropy = 4;
+  c.second = second_moment::square_of_stored;
+  all.push_back(c);
+  c = {};
+  c.second = second_moment::centred;
+  c.filter = texel_filter::nearest;
+  all.push_back(c);
+  c = {};
+  c.method = technique::evsm4;
+  c.min_variance = 1e-4;
+  all.push_back(c);
+  c.method = technique::evsm2;
+  c.filter = texel_filter::trilinear;
+  all.push_back(c);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("with every stage in the format a staged run is the plain run, bit for bit") {
+  const auto scene = test::small_frame(16, 16, 60, 21);
+  for (auto how : configurations()) {
+    for (const auto* format : {"unorm16", "half", "binary32", "e5m7"}) {
+      how.format = format;
+      CAPTURE(how.key());
+      CHECK(same_bits(run_staged(scene, how, {}).visibility, plain(scene, how).visibility));
+    }
+  }
+}
+
+TEST_CASE("with no stage in the format a staged run is the exact run, bit for bit") {
+  const auto scene = test::small_frame(16, 16, 60, 22);
+  for (auto how : configurations()) {
+    auto exact = how;
+    exact.format = "exact";
+    how.format = "half";
+    CAPTURE(how.key());
+    CHECK(same_bits(run_staged(scene, how, {stage_set::none(), 0, {}}).visibility,
+                    plain(scene, exact).visibility));
+  }
+}
+
+TEST_CASE("a stage alone in the format errs by what it does, and no more than it does") {
+  const auto scene = test::small_frame(32, 16, 300, 23);
+  configuration how;
+  how.format = "unorm8";
+  const blame b = blame_of(scene, how, {});
+  REQUIRE(b.stages.size() == 5);
+  CHECK(b.whole.largest > 0);
+  const auto of = [&](stage s) {
+    for (const auto& one : b.stages) {
+      if (one.which == s) return one;
+    }
+    FAIL("no stage " << name_of(s));
+    return b.stages.front();
+  };
+  // Eight bits in the store, 24 in the arithmetic: whoever blames the shading is wrong.
+  CHECK(of(stage::store).alone.rmse > 100 * of(stage::shading).alone.rmse);
+  CHECK(of(stage::blur).alone.rmse > 100 * of(stage::filter).alone.rmse);
+  CHECK(of(stage::shading).without.rmse == Approx(b.whole.rmse).epsilon(0.01));
+  CHECK(of(stage::weights).alone.largest == 0);  // 32 and 16 texels: no rounding at all
+
+  stage_choices coarse;
+  coarse.weight_bits = 4;
+  coarse.shading = binary16::value;
+  const blame c = blame_of(scene, how, coarse);
+  for (const auto& one : c.stages) {
+    if (one.which == stage::weights) CHECK(one.alone.largest > 0);
+    if (one.which == stage::shading) CHECK(one.alone.rmse > 100 * of(stage::shading).alone.rmse);
+  }
+}
+
+TEST_CASE("Lloyd's reduction is a stage where splits are relaxed") {
+  const auto scene = test::small_frame(32, 16, 100, 24);
+  configuration how;
+  how.method = technique::lvsm;
+  how.layers = 3;
+  how.splits = split_rule::lloyd;
+  const auto stages = stages_of(how);
+  REQUIRE(stages.front() == stage::splits);
+  CHECK(same_bits(run_staged(scene, how, {}).visibility, plain(scene, how).visibility));
+}
+
+TEST_CASE("stages that cannot be taken apart are refused with a cure") {
+  const auto scene = test::small_frame(8, 8, 4, 25);
+  configuration how;
+  how.method = technique::csm;
+  CHECK_THROWS_AS(run_staged(scene, how, {}), usage_error);
+  how = {};
+  how.format = "exact";
+  CHECK_THROWS_AS(run_staged(scene, how, {}), usage_error);
+}
