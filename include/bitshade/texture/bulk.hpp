@@ -1,0 +1,51 @@
+// Whole images filtered at memory speed. Compiled: link bitshade::bulk.
+//
+// Every function gives the bits of the templates that it names, which are the definition. Those on
+// rows work on [rows.first, rows.last) of the result alone, so that a caller may share an image
+// among threads in any way: the bits stay the same.
+#pragma once
+
+#include <cstdint>
+
+#include "bitshade/arithmetic/bulk.hpp"
+#include "bitshade/texture/address.hpp"
+#include "bitshade/texture/gaussian.hpp"
+#include "bitshade/texture/image.hpp"
+
+namespace bitshade::bulk {
+
+/// Rows [first, last) of an image.
+struct row_range {
+  int first = 0, last = 0;
+};
+
+/// How images of codes are read and written.
+struct texel_code {
+  encoding format;
+  rules rule{};
+};
+
+/// blur_row_x and blur_row_y of binary32 images.
+///
+/// Shapes   out as large as in, another image; odd taps.
+/// Policy   binary32 in the templates' order; the processor rounds to nearest even.
+/// Failure  std::invalid_argument for images that differ in size, rows outside them, or an
+///          instruction set that this processor lacks.
+void blur_x(const image<float>& in, const kernel& weights, address mode, row_range rows,
+            image<float>& out, instruction_set set = instruction_set::best, float border = 0);
+void blur_y(const image<float>& in, const kernel& weights, address mode, row_range rows,
+            image<float>& out, instruction_set set = instruction_set::best, float border = 0);
+
+/// Both, first along rows.
+void blur(const image<float>& in, const kernel& weights, address mode, row_range rows,
+          image<float>& out, instruction_set set = instruction_set::best, float border = 0);
+
+/// Both, on 16-bit codes: decoded, blurred along rows and rounded, blurred along columns, encoded.
+///
+/// Policy   as above; roundings to the format are bulk::round's and bulk::encode's.
+/// Failure  as above and those of bulk::encode.
+void blur(const texel_code& code, const image<std::uint16_t>& in, const kernel& weights,
+          address mode, row_range rows, image<std::uint16_t>& out,
+          instruction_set set = instruction_set::best, float border = 0);
+
+}  // namespace bitshade::bulk

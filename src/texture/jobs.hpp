@@ -1,0 +1,55 @@
+// What the row kernels are asked to do, as numbers and pointers. They are compiled with more
+// instructions than the rest, so they call no inline function that another file might compile too.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace bitshade::texture_kernels {
+
+/// How memory holds texels; what is computed is binary32.
+enum class texels : std::uint8_t { binary32, half, unorm16 };
+
+/// Rows [first, last) of an image blurred along its rows, its columns or both.
+///
+/// Sums run over the taps in their order, products first, without fma; what is stored between both
+/// directions and at the end is rounded as `kind` says.
+struct blur_job {
+  enum class direction : std::uint8_t { x, y, both };
+  direction along;
+  texels kind;
+  const void* in;
+  void* out;
+  int width, height, channels;
+  int first, last;
+  const float* weights;
+  int taps;
+  bool symmetric;
+  const int* columns;  ///< source column of x = -radius .. width + radius - 1; -1: the border
+  const int* rows;     ///< source row of y = first - radius .. last + radius - 1; -1: the border
+  float border;
+  float* scratch;       ///< scratch_size(*this) of them
+  const float** lines;  ///< group + taps of them
+
+  static constexpr std::size_t tile = 4096;  ///< values a row: taps + group of them fit the cache
+  static constexpr int group = 4;            ///< rows made at once
+  static constexpr std::size_t slack = 32;   ///< whole vectors may be read and written
+  static constexpr std::size_t cached_bytes = std::size_t{4} << 20;  ///< larger images pass caches by
+};
+
+/// The kernels of one instruction set; each returns false where it has none for the job.
+struct kernels {
+  bool (*blur)(const blur_job&);
+};
+
+namespace sse2 {
+extern const kernels all;
+}
+namespace avx2 {
+extern const kernels all;
+}
+namespace avx512 {
+extern const kernels all;
+}
+
+}  // namespace bitshade::texture_kernels

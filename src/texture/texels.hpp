@@ -1,0 +1,64 @@
+// Texels in memory as vectors of binary32, and back: one type a storage. Each instruction set
+// instantiates them with its own lanes. `stream` passes the caches by and wants aligned places.
+#pragma once
+
+#include <cstdint>
+
+namespace bitshade::texture_kernels {
+
+/// binary32 itself.
+template <class V>
+struct native_texels {
+  using f = typename V::f;
+  using code = float;
+  [[gnu::always_inline]] f load(const code* p) const { return V::load(p); }
+  [[gnu::always_inline]] void store(code* p, f x) const { V::store(p, x); }
+  [[gnu::always_inline]] void stream(code* p, f x) const { V::stream(p, x); }
+  [[gnu::always_inline]] f round(f x) const { return x; }
+};
+
+/// binary16 by the processor's conversions, to nearest even.
+template <class V>
+struct half_texels {
+  using f = typename V::f;
+  using code = std::uint16_t;
+  [[gnu::always_inline]] f load(const code* p) const { return V::from_half(V::load_half(p)); }
+  [[gnu::always_inline]] void store(code* p, f x) const {
+    V::store_half(p, V::template to_half<0>(x));
+  }
+  [[gnu::always_inline]] void stream(code* p, f x) const {
+    V::stream_words(p, V::template to_half<0>(x));
+  }
+  [[gnu::always_inline]] f round(f x) const { return V::from_half(V::template to_half<0>(x)); }
+};
+
+/// unorm16, rounded once each way.
+///
+/// fma(x, 65535, 2^23) has the code in its low bits, rounded at the exact product's unit; the
+/// quotient by 65535 is put right by its exact remainder [Markstein90]: tests try every code.
+template <class V>
+struct unorm16_texels {
+  using f = typename V::f;
+  using code = std::uint16_t;
+  f scale = V::all(65535.0f), magic = V::all(0x1p23f), step = V::all(1 / 65535.0f);
+
+  [[gnu::always_inline]] f load(const code* p) const { return value(V::to_float(V::load_codes(p))); }
+  [[gnu::always_inline]] void store(code* p, f x) const {
+    V::store_codes(p, V::isub(V::bits(sum(x)), V::bits(magic)));
+  }
+  [[gnu::always_inline]] void stream(code* p, f x) const {
+    V::stream_words(p, V::words(V::isub(V::bits(sum(x)), V::bits(magic))));
+  }
+  [[gnu::always_inline]] f round(f x) const { return value(V::sub(sum(x), magic)); }
+
+ private:
+  [[gnu::always_inline]] f sum(f x) const {
+    return V::fma(V::min(V::max(x, V::all(0)), V::all(1)), scale, magic);
+  }
+  [[gnu::always_inline]] f value(f c) const {
+    const f q = V::mul(c, step);
+    return V::fma(V::fnma(q, scale, c), step, q);
+  }
+};
+
+}  // namespace bitshade::texture_kernels
