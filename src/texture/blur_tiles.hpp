@@ -27,13 +27,13 @@ class blur_tiles {
   void run() {
     switch (job_.along) {
       case blur_job::direction::x:
-        for (int y = job_.first; y < job_.last; ++y) {
-          sum_across(y, 0, row_size_, line(0));
-          put(line(0), row_size_, out_row(y));
-        }
+        for (int y = job_.first; y < job_.last; ++y) across(y);
         return;
       case blur_job::direction::y:
-        for (int y = job_.first; y < job_.last; ++y) down(y);
+        for (int y = job_.first; y < job_.last; y += blur_job::group) {
+          down(y, job_.last - y < blur_job::group ? job_.last - y : blur_job::group);
+        }
+        if (stream_) V::fence();
         return;
       case blur_job::direction::both:
         for (std::size_t at = 0; at < row_size_; at += blur_job::tile) {
@@ -70,7 +70,10 @@ class blur_tiles {
   /// Loads n values; whole vectors may be written.
   void get(const code* from, std::size_t n, float* to) const {
     std::size_t i = 0;
-    for (; i + V::width <= n; i += V::width) V::store(to + i, texels_.load(from + i));
+    for (; i + V::width <= n; i += V::width) {
+      __builtin_prefetch(from + i + 4096 / sizeof(code));
+      V::store(to + i, texels_.load(from + i));
+    }
     if (i == n) return;
     code last[V::width] = {};
     for (std::size_t k = 0; i + k < n; ++k) last[k] = from[i + k];
@@ -152,22 +155,30 @@ class blur_tiles {
 
   static std::size_t up(std::size_t n) { return (n + V::width - 1) / V::width * V::width; }
 
-  /// Row y from the rows around it, as they lie in memory.
-  void down(int y) const {
+  /// Row y, straight to memory where whole vectors fit.
+  void across(int y) const {
     if constexpr (sizeof(code) == sizeof(float)) {
-      for (int k = 0; k < job_.taps; ++k) {
+      if (row_size_ % V::width == 0) return sum_across(y, 0, row_size_, out_row(y));
+    }
+    sum_across(y, 0, row_size_, line(0));
+    put(line(0), row_size_, out_row(y));
+  }
+
+  /// Rows from y on, from the rows around them as they lie in memory.
+  void down(int y, int rows) const {
+    if constexpr (sizeof(code) == sizeof(float)) {
+      for (int k = 0; k < job_.taps - 1 + rows; ++k) {
         const int from = job_.rows[y - job_.first + k];
         job_.lines[k] = from < 0 ? border_line() : in_row(from);
       }
       const std::size_t whole = row_size_ / V::width * V::width;
-      code* out = out_row(y);
-      tap_sum<V>(
-          job_.taps, job_.weights, whole, [&](int k) { return job_.lines[k]; },
-          [&](std::size_t i, f sum) { texels_.store(out + i, sum); });
-      for (std::size_t i = whole; i < row_size_; ++i) {
-        float sum = job_.weights[0] * job_.lines[0][i];
-        for (int k = 1; k < job_.taps; ++k) sum = sum + job_.weights[k] * job_.lines[k][i];
-        out[i] = sum;
+      sum_down(whole, out_row(y), rows);
+      for (int r = 0; r < rows; ++r) {
+        for (std::size_t i = whole; i < row_size_; ++i) {
+          float sum = job_.weights[0] * job_.lines[r][i];
+          for (int k = 1; k < job_.taps; ++k) sum = sum + job_.weights[k] * job_.lines[r + k][i];
+          out_row(y + r)[i] = sum;
+        }
       }
     }
   }

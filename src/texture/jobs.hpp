@@ -37,9 +37,38 @@ struct blur_job {
   static constexpr std::size_t cached_bytes = std::size_t{4} << 20;  ///< larger images pass caches by
 };
 
+/// Rows [first, last) of the next smaller level of an image of even width and height:
+/// ((a + b) + (c + d)) / 4. 1, 2 or 4 channels.
+struct mip_job {
+  texels kind;
+  const void* in;
+  void* out;
+  int width, channels;  ///< of `in`
+  int first, last;
+};
+
+/// What a summed-area table sums: texels in binary32, or 16-bit codes in wrapping 32-bit integers.
+enum class sums : std::uint8_t { of_texels, of_codes };
+
+/// A band of a strip of a summed-area table: running sums along its rows, then down its columns.
+struct sat_job {
+  sums what;
+  texels kind;
+  const void* in;
+  void* out;
+  std::size_t row_size;   ///< values from a row to the next
+  std::size_t first, n;   ///< values of each row; `first` at a texel's first channel
+  int channels, first_row, rows;
+  std::uint32_t* carry;   ///< bits of the sums at the strip's left: rows * channels, updated
+  std::uint32_t* above;   ///< bits of the row above: n, updated
+  static constexpr int band = 16;
+};
+
 /// The kernels of one instruction set; each returns false where it has none for the job.
 struct kernels {
   bool (*blur)(const blur_job&);
+  bool (*mip)(const mip_job&);
+  bool (*sat)(const sat_job&);
 };
 
 namespace sse2 {

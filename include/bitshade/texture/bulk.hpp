@@ -11,6 +11,7 @@
 #include "bitshade/texture/address.hpp"
 #include "bitshade/texture/gaussian.hpp"
 #include "bitshade/texture/image.hpp"
+#include "bitshade/texture/mip.hpp"
 
 namespace bitshade::bulk {
 
@@ -47,5 +48,30 @@ void blur(const image<float>& in, const kernel& weights, address mode, row_range
 void blur(const texel_code& code, const image<std::uint16_t>& in, const kernel& weights,
           address mode, row_range rows, image<std::uint16_t>& out,
           instruction_set set = instruction_set::best, float border = 0);
+
+/// downsample_row: rows of the next smaller level.
+///
+/// Shapes   out: max(1, width / 2) x max(1, height / 2).
+/// Policy   binary32 in the template's order; 16-bit codes are decoded before and encoded after.
+/// Failure  std::invalid_argument for an image of another size or rows outside it.
+void downsample(const image<float>& in, mip_filter filter, row_range rows, image<float>& out,
+                instruction_set set = instruction_set::best);
+void downsample(const texel_code& code, const image<std::uint16_t>& in, mip_filter filter,
+                row_range rows, image<std::uint16_t>& out,
+                instruction_set set = instruction_set::best);
+
+/// The table of make_sat(in, sat_order::running, sat_offset::none, ..): along rows, then columns,
+/// in one pass; of codes the binary32 sums of what they decode to.
+///
+/// Shapes   out as large as in, another image. how.threads share the image by columns.
+/// Failure  std::invalid_argument for images that differ in size, or an instruction set that this
+///          processor lacks.
+void sum_area(const image<float>& in, image<float>& out, const execution& how = {});
+void sum_area(const texel_code& code, const image<std::uint16_t>& in, image<float>& out,
+              const execution& how = {});
+
+/// make_modular_sat: the wrapping sums of the codes themselves.
+void sum_area(const image<std::uint16_t>& codes, image<std::uint32_t>& out,
+              const execution& how = {});
 
 }  // namespace bitshade::bulk

@@ -1,0 +1,164 @@
+// Running sums along rows and down columns at once: a square of values is transposed, so that its
+// rows are summed side by side, each in its own order, and transposed back.
+#pragma once
+
+#include "texture/jobs.hpp"
+#include "texture/texels.hpp"
+
+namespace bitshade::texture_kernels {
+
+/// Sums in binary32. -0 + x is x, whatever x: it stands before the first term.
+template <class V, class Texels>
+struct float_sums {
+  using code = typename Texels::code;
+  using out = float;
+  using vector = typename V::f;
+  static constexpr std::uint32_t nothing = 0x80000000u;
+  Texels texels;
+  [[gnu::always_inline]] vector load(const code* p) const { return texels.load(p); }
+  [[gnu::always_inline]] static vector add(vector a, vector b) { return V::add(a, b); }
+  [[gnu::always_inline]] static typename V::f value(vector a) { return a; }
+  [[gnu::always_inline]] static vector from(typename V::f a) { return a; }
+};
+
+/// Sums of codes in 32-bit integers, which wrap.
+template <class V>
+struct code_sums {
+  using code = std::uint16_t;
+  using out = std::uint32_t;
+  using vector = typename V::i;
+  static constexpr std::uint32_t nothing = 0;
+  [[gnu::always_inline]] vector load(const code* p) const { return V::load_codes(p); }
+  [[gnu::always_inline]] static vector add(vector a, vector b) { return V::iadd(a, b); }
+  [[gnu::always_inline]] static typename V::f value(vector a) { return V::value(a); }
+  [[gnu::always_inline]] static vector from(typename V::f a) { return V::bits(a); }
+};
+
+template <class V, class Sums, int Channels>
+class sat_band {
+ public:
+  explicit sat_band(const sat_job& job) : job_(job) {}
+
+  void run() {
+    for (int r = 0; r < job_.rows; r += width) {
+      rows_ = job_.rows - r < width ? job_.rows - r : width;
+      const std::size_t at = static_cast<std::size_t>(job_.first_row + r) * job_.row_size;
+      in_ = static_cast<const code*>(job_.in) + at + job_.first;
+      out_ = static_cast<float*>(job_.out) + at + job_.first;
+      block_rows(job_.carry + r * Channels);
+    }
+  }
+
+ private:
+  using code = typename Sums::code;
+  using f = typename V::f;
+  using vector = typename Sums::vector;
+  static constexpr int width = static_cast<int>(V::width);
+  static constexpr auto lanes = V::width;
+
+  static float number(std::uint32_t bits) { return __builtin_bit_cast(float, bits); }
+
+  void block_rows(std::uint32_t* carry) {
+    vector sum[Channels];
+    for (int c = 0; c < Channels; ++c) {
+      float at[lanes];
+      for (int r = 0; r < width; ++r) at[r] = r < rows_ ? number(carry[r * Channels + c]) : 0;
+      sum[c] = Sums::from(V::load(at));
+    }
+    float* above = reinterpret_cast<float*>(job_.above);
+    std::size_t i = 0;
+    for (; i + lanes <= job_.n; i += lanes) {
+      if (rows_ == width) {
+        const auto load = [&](int r) { return sums_.load(in_ + row(r) + i); };
+        const auto store = [&](int r, f x) { V::store(out_ + row(r) + i, x); };
+        block(sum, above + i, load, store);
+      } else {
+        partial(sum, above + i, i, lanes);
+      }
+    }
+    if (i < job_.n) partial(sum, above + i, i, job_.n - i);
+    for (int c = 0; c < Channels; ++c) {
+      float at[lanes];
+      V::store(at, Sums::value(sum[c]));
+      for (int r = 0; r < rows_; ++r) {
+        carry[r * Channels + c] = __builtin_bit_cast(std::uint32_t, at[r]);
+      }
+    }
+  }
+
+  std::size_t row(int r) const { return static_cast<std::size_t>(r) * job_.row_size; }
+
+  template <class Load, class Store>
+  [[gnu::always_inline]] void block(vector (&sum)[Channels], float* above, Load load,
+                                    Store store) const {
+    f square[lanes];
+    for (int r = 0; r < width; ++r) square[r] = Sums::value(load(r));
+    V::transpose(square);
+    for (int k = 0; k < width; ++k) {
+      vector& s = sum[k % Channels];
+      s = Sums::add(s, Sums::from(square[k]));
+      square[k] = Sums::value(s);
+    }
+    V::transpose(square);
+    vector down = Sums::from(V::load(above));
+    for (int r = 0; r < width; ++r) {
+      down = Sums::add(down, Sums::from(square[r]));
+      store(r, Sums::value(down));
+    }
+    V::store(above, Sums::value(down));
+  }
+
+  /// A block of fewer rows or columns, in buffers. Columns beyond n are not there for the next
+  /// strip's sums either: n ends at the image's edge.
+  void partial(vector (&sum)[Channels], float* above, std::size_t i, std::size_t n) const {
+    code in[lanes][lanes] = {};
+    float out[lanes][lanes], last[lanes] = {};
+    for (int r = 0; r < rows_; ++r) {
+      for (std::size_t k = 0; k < n; ++k) in[r][k] = in_[row(r) + i + k];
+    }
+    for (std::size_t k = 0; k < n; ++k) last[k] = above[k];
+    block(
+        sum, last, [&](int r) { return sums_.load(in[r]); },
+        [&](int r, f x) { V::store(out[r], x); });
+    for (int r = 0; r < rows_; ++r) {
+      for (std::size_t k = 0; k < n; ++k) out_[row(r) + i + k] = out[r][k];
+    }
+    for (std::size_t k = 0; k < n; ++k) above[k] = out[rows_ - 1][k];
+  }
+
+  const sat_job& job_;
+  const Sums sums_{};
+  int rows_ = 0;
+  const code* in_ = nullptr;
+  float* out_ = nullptr;
+};
+
+template <class V, class Sums>
+bool sat_of(const sat_job& job) {
+  switch (job.channels) {
+    case 1:
+      sat_band<V, Sums, 1>(job).run();
+      return true;
+    case 2:
+      sat_band<V, Sums, 2>(job).run();
+      return true;
+    case 4:
+      sat_band<V, Sums, 4>(job).run();
+      return true;
+    default:
+      return false;
+  }
+}
+
+template <class V>
+bool sat_in(const sat_job& job) {
+  if (job.what == sums::of_codes) return sat_of<V, code_sums<V>>(job);
+  if (job.kind == texels::binary32) return sat_of<V, float_sums<V, native_texels<V>>>(job);
+  if constexpr (V::has_fma) {
+    if (job.kind == texels::half) return sat_of<V, float_sums<V, half_texels<V>>>(job);
+    return sat_of<V, float_sums<V, unorm16_texels<V>>>(job);
+  }
+  return false;
+}
+
+}  // namespace bitshade::texture_kernels
