@@ -64,11 +64,54 @@ struct sat_job {
   static constexpr int band = 16;
 };
 
+/// How coordinates and weights are put on a grid of 2^-8.
+enum class grid : std::uint8_t { none, floor, nearest, weights };
+enum class blend : std::uint8_t { mul_add, fma, products };
+
+/// Two texels and a weight along an axis, by the definition, for samples that lie at an edge: index
+/// -1 is the border.
+struct axis_lookup {
+  int i0, i1;
+  double weight;
+};
+struct sample_job;
+using define_axis = axis_lookup (*)(const sample_job&, float coordinate, bool vertical);
+
+/// Bilinear lookups of a level: n samples of 1 or 2 channels.
+///
+/// products are summed in binary64 from weights on the grid and rounded once; the others are
+/// binary32 throughout.
+struct sample_job {
+  texels kind;
+  const void* in;
+  int width, height, channels;
+  grid snapped;
+  blend order;
+  const float* u;
+  const float* v;
+  float* out;
+  std::size_t n;
+  float border[2];
+  define_axis define;
+  const void* context;  ///< of `define`
+};
+
+/// Exact lookups of binary32 texels, rounded once, where binary64 can tell.
+struct certify_job {
+  sample_job lookup;      ///< kind binary32, no grid
+  double divisor;         ///< of the texels
+  double relative_error;  ///< of the value, in units of the largest texel / divisor
+  std::uint32_t* undecided;  ///< places in `out` that binary64 cannot tell; room for all
+  std::size_t count;         ///< how many there are
+};
+
 /// The kernels of one instruction set; each returns false where it has none for the job.
 struct kernels {
   bool (*blur)(const blur_job&);
   bool (*mip)(const mip_job&);
   bool (*sat)(const sat_job&);
+  bool (*sample)(const sample_job&);
+  bool (*certify)(certify_job&);
 };
 
 namespace sse2 {

@@ -55,6 +55,7 @@ class sat_band {
   using vector = typename Sums::vector;
   static constexpr int width = static_cast<int>(V::width);
   static constexpr auto lanes = V::width;
+  static constexpr std::size_t ahead = 256 / sizeof(code);  ///< fetched early: sixteen rows are more than the processor foresees
 
   static float number(std::uint32_t bits) { return __builtin_bit_cast(float, bits); }
 
@@ -67,16 +68,28 @@ class sat_band {
     }
     float* above = reinterpret_cast<float*>(job_.above);
     std::size_t i = 0;
-    for (; i + lanes <= job_.n; i += lanes) {
-      if (rows_ == width) {
-        const auto load = [&](int r) { return sums_.load(in_ + row(r) + i); };
-        const auto store = [&](int r, f x) { V::store(out_ + row(r) + i, x); };
-        block(sum, above + i, load, store);
+    if (rows_ == width) {
+      const auto load = [&](int r) {
+        __builtin_prefetch(in_ + row(r) + i + ahead);
+        return sums_.load(in_ + row(r) + i);
+      };
+      const std::size_t head = to_line();
+      if (lanes * sizeof(float) == 64 && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
+        // Whole lines, past the caches: so many rows at once would throw each other out of them.
+        if (head > 0) partial(sum, above, 0, head);
+        for (i = head; i + lanes <= job_.n; i += lanes) {
+          block(sum, above + i, width, load, [&](int r, f x) { V::stream(out_ + row(r) + i, x); });
+        }
+        V::fence();
       } else {
-        partial(sum, above + i, i, lanes);
+        for (; i + lanes <= job_.n; i += lanes) {
+          block(sum, above + i, width, load, [&](int r, f x) { V::store(out_ + row(r) + i, x); });
+        }
       }
     }
-    if (i < job_.n) partial(sum, above + i, i, job_.n - i);
+    for (; i < job_.n; i += lanes) {
+      partial(sum, above + i, i, job_.n - i < lanes ? job_.n - i : lanes);
+    }
     for (int c = 0; c < Channels; ++c) {
       float at[lanes];
       V::store(at, Sums::value(sum[c]));
@@ -88,13 +101,17 @@ class sat_band {
 
   std::size_t row(int r) const { return static_cast<std::size_t>(r) * job_.row_size; }
 
+  std::size_t to_line() const {
+    return (64 - reinterpret_cast<std::uintptr_t>(out_) % 64) % 64 / sizeof(float);
+  }
+
   template <class Load, class Store>
-  [[gnu::always_inline]] void block(vector (&sum)[Channels], float* above, Load load,
+  [[gnu::always_inline]] void block(vector (&sum)[Channels], float* above, int columns, Load load,
                                     Store store) const {
     f square[lanes];
     for (int r = 0; r < width; ++r) square[r] = Sums::value(load(r));
     V::transpose(square);
-    for (int k = 0; k < width; ++k) {
+    for (int k = 0; k < columns; ++k) {
       vector& s = sum[k % Channels];
       s = Sums::add(s, Sums::from(square[k]));
       square[k] = Sums::value(s);
@@ -108,8 +125,7 @@ class sat_band {
     V::store(above, Sums::value(down));
   }
 
-  /// A block of fewer rows or columns, in buffers. Columns beyond n are not there for the next
-  /// strip's sums either: n ends at the image's edge.
+  /// A block of fewer rows or columns, in buffers.
   void partial(vector (&sum)[Channels], float* above, std::size_t i, std::size_t n) const {
     code in[lanes][lanes] = {};
     float out[lanes][lanes], last[lanes] = {};
@@ -118,7 +134,7 @@ class sat_band {
     }
     for (std::size_t k = 0; k < n; ++k) last[k] = above[k];
     block(
-        sum, last, [&](int r) { return sums_.load(in[r]); },
+        sum, last, static_cast<int>(n), [&](int r) { return sums_.load(in[r]); },
         [&](int r, f x) { V::store(out[r], x); });
     for (int r = 0; r < rows_; ++r) {
       for (std::size_t k = 0; k < n; ++k) out_[row(r) + i + k] = out[r][k];

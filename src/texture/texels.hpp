@@ -1,5 +1,6 @@
 // Texels in memory as vectors of binary32, and back: one type a storage. Each instruction set
-// instantiates them with its own lanes. `stream` passes the caches by and wants aligned places.
+// instantiates them with its own lanes. `stream` passes the caches by and wants aligned places;
+// `narrow` and `wide` take codes that are in a register already, of 16 bits and of 32.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@ struct native_texels {
   using f = typename V::f;
   using code = float;
   [[gnu::always_inline]] f load(const code* p) const { return V::load(p); }
+  [[gnu::always_inline]] f narrow(f x) const { return x; }
   [[gnu::always_inline]] void store(code* p, f x) const { V::store(p, x); }
   [[gnu::always_inline]] void stream(code* p, f x) const { V::stream(p, x); }
   [[gnu::always_inline]] f round(f x) const { return x; }
@@ -23,6 +25,8 @@ struct half_texels {
   using f = typename V::f;
   using code = std::uint16_t;
   [[gnu::always_inline]] f load(const code* p) const { return V::from_half(V::load_half(p)); }
+  [[gnu::always_inline]] f narrow(typename V::half_codes c) const { return V::from_half(c); }
+  [[gnu::always_inline]] f wide(typename V::i c) const { return V::from_half(V::words(c)); }
   [[gnu::always_inline]] void store(code* p, f x) const {
     V::store_half(p, V::template to_half<0>(x));
   }
@@ -42,7 +46,9 @@ struct unorm16_texels {
   using code = std::uint16_t;
   f scale = V::all(65535.0f), magic = V::all(0x1p23f), step = V::all(1 / 65535.0f);
 
-  [[gnu::always_inline]] f load(const code* p) const { return value(V::to_float(V::load_codes(p))); }
+  [[gnu::always_inline]] f load(const code* p) const { return wide(V::load_codes(p)); }
+  [[gnu::always_inline]] f narrow(typename V::half_codes c) const { return wide(V::widen(c)); }
+  [[gnu::always_inline]] f wide(typename V::i c) const { return value(V::to_float(c)); }
   [[gnu::always_inline]] void store(code* p, f x) const {
     V::store_codes(p, V::isub(V::bits(sum(x)), V::bits(magic)));
   }
@@ -53,12 +59,22 @@ struct unorm16_texels {
 
  private:
   [[gnu::always_inline]] f sum(f x) const {
-    return V::fma(V::min(V::max(x, V::all(0)), V::all(1)), scale, magic);
+    return V::fma(V::min(V::max(x, V::all(0.0f)), V::all(1.0f)), scale, magic);
   }
   [[gnu::always_inline]] f value(f c) const {
     const f q = V::mul(c, step);
     return V::fma(V::fnma(q, scale, c), step, q);
   }
+};
+
+/// Codes of 16 bits as the integers that they are.
+template <class V>
+struct code_texels {
+  using f = typename V::f;
+  using code = std::uint16_t;
+  [[gnu::always_inline]] f load(const code* p) const { return wide(V::load_codes(p)); }
+  [[gnu::always_inline]] f narrow(typename V::half_codes c) const { return wide(V::widen(c)); }
+  [[gnu::always_inline]] f wide(typename V::i c) const { return V::to_float(c); }
 };
 
 }  // namespace bitshade::texture_kernels

@@ -1,0 +1,112 @@
+// The lanes of AVX2 with the shuffles that images need. Included by their AVX2 kernels alone.
+#pragma once
+
+#include "bulk/lanes_avx2.hpp"
+
+namespace bitshade::texture_kernels::avx2 {
+
+struct lanes : bulk_kernels::avx2::lanes32 {
+  static constexpr bool slides = false;  // what a slide costs here, a second read does as well
+  static void stream(float* p, f x) { _mm256_stream_ps(p, x); }
+  static void stream_words(std::uint16_t* p, __m128i x) {
+    _mm_stream_si128(reinterpret_cast<__m128i*>(p), x);
+  }
+  static __m128i words(i x) { return narrow(x); }
+  static void fence() { _mm_sfence(); }
+
+  template <int Channels>
+  static f lefts(f a, f b) {
+    if constexpr (Channels == 4) return _mm256_permute2f128_ps(a, b, 0x20);
+    const f mixed = Channels == 1 ? _mm256_shuffle_ps(a, b, 0x88) : pairs<0>(a, b);
+    return value(_mm256_permute4x64_epi64(bits(mixed), 0xd8));
+  }
+  template <int Channels>
+  static f rights(f a, f b) {
+    if constexpr (Channels == 4) return _mm256_permute2f128_ps(a, b, 0x31);
+    const f mixed = Channels == 1 ? _mm256_shuffle_ps(a, b, 0xdd) : pairs<15>(a, b);
+    return value(_mm256_permute4x64_epi64(bits(mixed), 0xd8));
+  }
+  /// Halves of 128 bits: the first (0) or second (15) of each pair, a's and b's in turn.
+  template <int Which>
+  static f pairs(f a, f b) {
+    return _mm256_castpd_ps(_mm256_shuffle_pd(_mm256_castps_pd(a), _mm256_castps_pd(b), Which));
+  }
+
+  static void transpose(f (&x)[8]) {
+    f t[8];
+    for (int k = 0; k < 8; k += 2) {
+      t[k] = _mm256_unpacklo_ps(x[k], x[k + 1]);
+      t[k + 1] = _mm256_unpackhi_ps(x[k], x[k + 1]);
+    }
+    for (int k = 0; k < 8; k += 4) {
+      for (int j = 0; j < 2; ++j) {
+        x[k + 2 * j] = pairs<0>(t[k + j], t[k + j + 2]);
+        x[k + 2 * j + 1] = pairs<15>(t[k + j], t[k + j + 2]);
+      }
+    }
+    for (int k = 0; k < 4; ++k) {
+      t[k] = _mm256_permute2f128_ps(x[k], x[k + 4], 0x20);
+      t[k + 4] = _mm256_permute2f128_ps(x[k], x[k + 4], 0x31);
+    }
+    for (int k = 0; k < 8; ++k) x[k] = t[k];
+  }
+
+  static constexpr bool samples = true;
+  using wide = bulk_kernels::avx2::lanes64;
+  static f floor(f x) { return _mm256_floor_ps(x); }
+  static f nearest(f x) { return _mm256_round_ps(x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
+  static __m256d floor(__m256d x) { return _mm256_floor_pd(x); }
+  static __m256d nearest(__m256d x) {
+    return _mm256_round_pd(x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+  }
+  static bool all(m a) { return _mm256_movemask_ps(value(a)) == 0xff; }
+  static f all(float x) { return lanes32::all(x); }
+  static i imul(i a, i b) { return _mm256_mullo_epi32(a, b); }
+  static void store_ints(int* p, i x) { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), x); }
+  static i load_ints(const int* p) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+  }
+
+  /// Lanes 0 0 1 1 .. of the lower (0) or upper (1) half.
+  template <int Half>
+  static f twice(f x) {
+    const f half = _mm256_permute2f128_ps(x, x, Half == 0 ? 0x00 : 0x11);
+    return _mm256_permutevar_ps(half, _mm256_set_epi32(3, 3, 2, 2, 1, 1, 0, 0));
+  }
+  /// (row * width + column) * channels, of four samples.
+  static void store_places(int* p, __m256d column, __m256d row, int width, int channels) {
+    const __m128i texel = _mm_add_epi32(
+        _mm_mullo_epi32(_mm256_cvttpd_epi32(row), _mm_set1_epi32(width)), _mm256_cvttpd_epi32(column));
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_mullo_epi32(texel, _mm_set1_epi32(channels)));
+  }
+  template <int Half>
+  static __m256d twice(__m256d x) {
+    return _mm256_permute4x64_pd(x, Half == 0 ? 0x50 : 0xfa);
+  }
+  /// Of each 128 bits the first or second 64, a's then b's.
+  static f low_pairs(f a, f b) { return pairs<0>(a, b); }
+  static f high_pairs(f a, f b) { return pairs<15>(a, b); }
+
+  /// Four values from each of the places at[0], at[2], ..
+  static f quads(const float* p, const int* at) {
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p + at[0])),
+                                _mm_loadu_ps(p + at[2]), 1);
+  }
+  static __m128i quads(const std::uint16_t* p, const int* at) {
+    const __m128i first = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p + at[0]));
+    const auto* second = reinterpret_cast<const double*>(p + at[2]);
+    return _mm_castpd_si128(_mm_loadh_pd(_mm_castsi128_pd(first), second));
+  }
+  static i widen(__m128i words) { return _mm256_cvtepu16_epi32(words); }
+  /// Two values from each place: the lower (0) or upper (1) half of the places.
+  template <int Half>
+  static f couples(const float* p, i at) {
+    const __m128i places = _mm256_extracti128_si256(at, Half);
+    return value(_mm256_i32gather_epi64(reinterpret_cast<const long long*>(p), places, 4));
+  }
+  static i couples(const std::uint16_t* p, i at) {
+    return _mm256_i32gather_epi32(reinterpret_cast<const int*>(p), at, 2);
+  }
+};
+
+}  // namespace bitshade::texture_kernels::avx2

@@ -1,0 +1,284 @@
+// Lookups in binary64: sums that are rounded once, and certified exact values.
+#pragma once
+
+#include "texture/sample_rows.hpp"
+
+namespace bitshade::texture_kernels {
+
+/// The sum of four products, weights on the grid of 2^-8, rounded to binary32 at the end.
+template <class V, bool Norm>
+struct sum_of_products {
+  using W = typename V::wide;
+  using f = typename W::f;
+  static constexpr bool tests_exactness = false;
+
+  /// A code's number in binary64: the quotient put right by its exact remainder [Markstein90].
+  [[gnu::always_inline]] static f texel(const float* p) {
+    const f c = W::load(p);
+    if constexpr (!Norm) return c;
+    const f step = W::all(1 / 65535.0), q = W::mul(c, step);
+    return W::fma(W::fnma(q, W::all(65535.0), c), step, q);
+  }
+  [[gnu::always_inline]] static f weight(f x) {
+    return W::mul(V::nearest(W::mul(x, W::all(256.0))), W::all(1 / 256.0));
+  }
+  [[gnu::always_inline]] void put(const float* t, std::size_t stride, f fx, f fy, f, float* out,
+                                  float*) const {
+    const f one = W::all(1.0), gx = W::sub(one, fx), gy = W::sub(one, fy);
+    const auto product = [&](f wx, f wy, int k) {
+      return W::mul(W::mul(wx, wy), texel(t + static_cast<std::size_t>(k) * stride));
+    };
+    const f upper = W::add(product(gx, gy, 0), product(fx, gy, 1));
+    W::store(out, W::add(W::add(upper, product(gx, fy, 2)), product(fx, fy, 3)));
+  }
+};
+
+/// Both ends of an interval that holds the exact value: bilinear_bounded of certified.hpp.
+template <class V>
+struct interval_ends {
+  using W = typename V::wide;
+  using f = typename W::f;
+  static constexpr bool tests_exactness = true;
+  f error, divisor;
+  bool divides;
+
+  [[gnu::always_inline]] static f weight(f x) { return x; }
+  [[gnu::always_inline]] void put(const float* t, std::size_t stride, f fx, f fy, f inexact,
+                                  float* low, float* high) const {
+    const f a = W::load(t), b = W::load(t + stride), c = W::load(t + 2 * stride),
+            d = W::load(t + 3 * stride);
+    const auto lerp = [](f from, f to, f by) {
+      return W::add(from, W::mul(by, W::sub(to, from)));
+    };
+    const auto size = [](f x) {
+      return W::value(W::and_(W::bits(x), W::all_bits(~std::uint64_t{0} >> 1)));
+    };
+    f value = lerp(lerp(a, b, fx), lerp(c, d, fx), fy);
+    const f most = W::max(W::max(size(a), size(b)), W::max(size(c), size(d)));
+    if (divides) value = W::mul(value, divisor);
+    const f radius = W::add(W::mul(most, error), inexact);
+    W::store(low, W::sub(value, radius));
+    W::store(high, W::add(value, radius));
+  }
+};
+
+template <class V, class Texels, int Channels, class Operation>
+class wide_rows {
+ public:
+  using W = typename V::wide;
+  using f = typename W::f;
+  static constexpr std::size_t values = V::width * Channels;
+
+  wide_rows(const sample_job& job, const Operation& operation)
+      : job_(job), operation_(operation) {}
+
+  /// Calls take(i, low, high) for each vector of samples, i the first value's place in `out`.
+  template <class Take>
+  void run(Take take) const {
+    std::size_t i = 0;
+    for (; i + V::width <= job_.n; i += V::width) {
+      float* out = job_.out + i * Channels;
+      float high[values];
+      vector(job_.u + i, job_.v + i, out, high);
+      take(i * Channels, values, out, high);
+    }
+    if (i == job_.n) return;
+    float u[V::width], v[V::width], low[values], high[values];
+    for (std::size_t k = 0; k < V::width; ++k) {
+      u[k] = i + k < job_.n ? job_.u[i + k] : 0.5f;
+      v[k] = i + k < job_.n ? job_.v[i + k] : 0.5f;
+    }
+    vector(u, v, low, high);
+    const std::size_t rest = (job_.n - i) * Channels;
+    for (std::size_t k = 0; k < rest; ++k) job_.out[i * Channels + k] = low[k];
+    take(i * Channels, rest, low, high);
+  }
+
+ private:
+  struct weights {
+    double fx[V::width], fy[V::width];
+    double inexact[V::width];  ///< 0, or infinity where a coordinate is not exact
+  };
+
+  /// Places and weights of one half of the samples; false where one lies at an edge.
+  template <int Half>
+  [[gnu::always_inline]] bool locate_half(const float* u, const float* v, weights& w,
+                                          int* place) const {
+    constexpr std::size_t at = Half * W::width;
+    bool inner = true;
+    f exact[2], first[2];
+    const auto axis = [&](int which, const float* p, int size, double* weight)
+                          __attribute__((always_inline)) {
+      const f scaled = W::mul(W::load(p), W::all(static_cast<double>(size)));
+      const f x = W::sub(scaled, W::all(0.5));
+      first[which] = V::floor(x);
+      const f fraction = W::sub(x, first[which]);
+      W::store(weight, Operation::weight(fraction));
+      const f last = W::all(static_cast<double>(size - 2));
+      inner &= !W::any(W::nle(first[which], last)) && !W::any(W::nle(W::all(0.0), first[which]));
+      if constexpr (Operation::tests_exactness) {
+        // The subtraction loses nothing, and the weight lies on the grid of 2^-32.
+        const f grid = W::mul(fraction, W::all(0x1p32));
+        const f lost = W::sub(W::add(x, W::all(0.5)), scaled);
+        const auto on_grid = W::eq(V::floor(grid), grid);
+        exact[which] = W::value(W::select(on_grid, W::bits(lost), W::bits(W::all(1.0))));
+      }
+    };
+    axis(0, u + at, job_.width, w.fx + at);
+    axis(1, v + at, job_.height, w.fy + at);
+    if constexpr (Operation::tests_exactness) {
+      const auto none = W::all_bits(0), infinite = W::all_bits(std::uint64_t{0x7ff} << 52);
+      const f zero = W::all(0.0);
+      const auto x = W::select(W::eq(exact[0], zero), none, infinite);
+      const auto y = W::select(W::eq(exact[1], zero), none, infinite);
+      W::store(w.inexact + at, W::value(W::or_(x, y)));
+    }
+    V::store_places(place + at, first[0], first[1], job_.width, Channels);
+    return inner;
+  }
+
+  [[gnu::always_inline]] void vector(const float* u, const float* v, float* low,
+                                     float* high) const {
+    weights w;
+    int place[V::width];
+    float t[4 * values];
+    const bool first = locate_half<0>(u, v, w, place), second = locate_half<1>(u, v, w, place);
+    const auto keep = [&](int part, const four<V>& x) __attribute__((always_inline)) {
+      V::store(t + part * V::width, x.t00);
+      V::store(t + values + part * V::width, x.t10);
+      V::store(t + 2 * values + part * V::width, x.t01);
+      V::store(t + 3 * values + part * V::width, x.t11);
+    };
+    if (first && second) {
+      keep(0, fetch<V, Texels, Channels, 0>(texels_, job_, place));
+      if constexpr (Channels == 2) keep(1, fetch<V, Texels, Channels, 1>(texels_, job_, place));
+    } else {
+      edges(u, v, w, t);
+    }
+    const auto part = [&]<int Part>() __attribute__((always_inline)) {
+      constexpr int from = Channels == 2 ? Part / 2 : Part;
+      const auto spread = [&](const double* p) __attribute__((always_inline)) {
+        const f x = W::load(p + from * W::width);
+        if constexpr (Channels == 2) return V::template twice<Part % 2>(x);
+        return x;
+      };
+      const f inexact = Operation::tests_exactness ? spread(w.inexact) : W::all(0.0);
+      operation_.put(t + Part * W::width, values, spread(w.fx), spread(w.fy), inexact,
+                     low + Part * W::width, high + Part * W::width);
+    };
+    part.template operator()<0>();
+    part.template operator()<1>();
+    if constexpr (Channels == 2) {
+      part.template operator()<2>();
+      part.template operator()<3>();
+    }
+  }
+
+  [[gnu::noinline]] void edges(const float* u, const float* v, weights& w, float* t) const {
+    four<V> parts[Channels];
+    fetch_edges<V, Texels, Channels>(texels_, job_, u, v, w.fx, w.fy, parts);
+    for (int p = 0; p < Channels; ++p) {
+      V::store(t + p * V::width, parts[p].t00);
+      V::store(t + values + p * V::width, parts[p].t10);
+      V::store(t + 2 * values + p * V::width, parts[p].t01);
+      V::store(t + 3 * values + p * V::width, parts[p].t11);
+    }
+    for (std::size_t k = 0; k < V::width; ++k) {
+      // A weight that is none: the coordinate is not exact in binary64.
+      const bool known = w.fx[k] == w.fx[k] && w.fy[k] == w.fy[k];
+      w.inexact[k] = known ? 0.0 : __builtin_inf();
+    }
+  }
+
+  const sample_job& job_;
+  const Operation& operation_;
+  const Texels texels_{};
+};
+
+template <class V, class Texels, bool Norm>
+bool products_of(const sample_job& job) {
+  const sum_of_products<V, Norm> operation;
+  const auto none = [](std::size_t, std::size_t, const float*, const float*) {};
+  if (job.channels == 1) wide_rows<V, Texels, 1, sum_of_products<V, Norm>>(job, operation).run(none);
+  if (job.channels == 2) wide_rows<V, Texels, 2, sum_of_products<V, Norm>>(job, operation).run(none);
+  return true;
+}
+
+template <class V, class Texels, grid Grid, blend Order>
+bool rows_of(const sample_job& job) {
+  if (job.channels == 1) sample_rows<V, Texels, 1, Grid, Order>(job).run();
+  if (job.channels == 2) sample_rows<V, Texels, 2, Grid, Order>(job).run();
+  return true;
+}
+
+template <class V, class Texels, bool Norm, class Codes>
+bool sample_of(const sample_job& job) {
+  if (job.order == blend::products) {
+    return job.snapped == grid::weights && products_of<V, Codes, Norm>(job);
+  }
+  if (job.order == blend::fma) {
+    return job.snapped == grid::none && rows_of<V, Texels, grid::none, blend::fma>(job);
+  }
+  switch (job.snapped) {
+    case grid::none:
+      return rows_of<V, Texels, grid::none, blend::mul_add>(job);
+    case grid::floor:
+      return rows_of<V, Texels, grid::floor, blend::mul_add>(job);
+    case grid::nearest:
+      return rows_of<V, Texels, grid::nearest, blend::mul_add>(job);
+    case grid::weights:
+      break;
+  }
+  return false;
+}
+
+template <class V>
+bool sample_in(const sample_job& job) {
+  if constexpr (V::samples) {
+    switch (job.kind) {
+      case texels::binary32:
+        return sample_of<V, native_texels<V>, false, native_texels<V>>(job);
+      case texels::half:
+        return sample_of<V, half_texels<V>, false, half_texels<V>>(job);
+      case texels::unorm16:
+        return sample_of<V, unorm16_texels<V>, true, code_texels<V>>(job);
+    }
+  }
+  return false;
+}
+
+template <class V, int Channels>
+void certify(certify_job& job) {
+  using W = typename V::wide;
+  const interval_ends<V> ends{W::all(job.relative_error), W::all(1 / job.divisor),
+                              job.divisor != 1};
+  const wide_rows<V, native_texels<V>, Channels, interval_ends<V>> rows(job.lookup, ends);
+  rows.run([&](std::size_t at, std::size_t n, const float* low, const float* high) {
+    if (n == V::width * Channels) {
+      bool all = true;
+      for (int c = 0; c < Channels; ++c) {
+        const auto a = V::load(low + c * V::width), b = V::load(high + c * V::width);
+        const auto same = V::bits(V::sub(a, b));  // +0 where both are one finite number
+        all &= V::all(V::ieq(same, V::all_bits(0))) && V::all(V::ne(a, V::all(0.0f)));
+      }
+      if (all) return;
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!(low[k] == high[k]) || low[k] == 0) {
+        job.undecided[job.count++] = static_cast<std::uint32_t>(at + k);
+      }
+    }
+  });
+}
+
+template <class V>
+bool certify_in(certify_job& job) {
+  if constexpr (V::samples) {
+    if (job.lookup.channels == 1) certify<V, 1>(job);
+    if (job.lookup.channels == 2) certify<V, 2>(job);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace bitshade::texture_kernels
