@@ -57,29 +57,35 @@ int table::run(int argc, char** argv) {
   minimum_reporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
 
+  const auto find = [&](const std::string& of, const std::string& name) -> const row* {
+    for (const row& r : rows_) {
+      if (r.group == of && r.name == name && reporter.least.count(of + " / " + name) != 0) return &r;
+    }
+    return nullptr;
+  };
+  const auto time = [&](const row& r) {
+    return reporter.least.at(r.group + " / " + r.name) / static_cast<double>(r.elements);
+  };
   int missed = 0;
   std::string group;
   for (const row& r : rows_) {
-    const auto mine = reporter.least.find(r.group + " / " + r.name);
-    if (mine == reporter.least.end()) continue;  // filtered out
+    if (find(r.group, r.name) == nullptr) continue;  // filtered out
     if (r.group != group) {
       group = r.group;
       std::printf("\n%-42s %10s %7s %7s\n", group.c_str(), "ns/element", "ratio", "limit");
     }
-    std::printf("  %-40s %10.4g", r.name.c_str(), mine->second / static_cast<double>(r.elements));
-    const auto base = reporter.least.find(r.group + " / " + r.base);
-    if (base != reporter.least.end()) {
-      std::size_t base_elements = r.elements;
-      for (const row& b : rows_) {
-        if (b.group == r.group && b.name == r.base) base_elements = b.elements;
-      }
-      const double ratio = mine->second / static_cast<double>(r.elements) /
-                           (base->second / static_cast<double>(base_elements));
-      std::printf(" %7.2f", ratio);
+    std::printf("  %-40s %10.4g", r.name.c_str(), time(r));
+    if (const row* base = find(r.group, r.base)) {
+      double ratio = time(r) / time(*base);
+      const row* beside = find(r.group, r.beside);
+      const row* their_base = beside ? find(r.group, beside->base) : nullptr;
+      if (their_base) ratio /= time(*beside) / time(*their_base);
+      const int digits = ratio < 0.1 ? 5 : 2;
+      std::printf(" %7.*f", digits, ratio);
       if (r.limit > 0) {
         const bool met = ratio <= r.limit;
         missed += met ? 0 : 1;
-        std::printf(" %7.2f %s", r.limit, met ? "met" : "MISSED");
+        std::printf(" %7.*f %s", digits, r.limit, met ? "met" : "MISSED");
       }
     }
     std::printf("\n");

@@ -19,6 +19,7 @@ struct row {
   std::function<std::string()> check;   ///< may be empty: a limit (copy) has no result of its own
   std::string base;                     ///< name of the row in the same group to divide by
   double limit = 0;                     ///< largest ratio that is wanted; 0: none is
+  std::string beside = {};              ///< a row of the group whose own ratio the limit is relative to
 };
 
 class table {

@@ -230,7 +230,7 @@ class blur_tiles {
       return true;
     }
     // What the caches cannot keep goes past them, by whole aligned vectors.
-    if (head > 0) sums(0, V::width, put);
+    sums(0, head, put);
     const std::size_t end = head + (n - head) / V::width * V::width;
     sums(head, end, [&](int r, std::size_t i, f sum) __attribute__((always_inline)) {
       texels_.stream(out + static_cast<std::size_t>(r) * row_size_ + i, sum);

@@ -93,6 +93,25 @@ TEST_CASE("bulk::blur rounds 16-bit texels as stores between the templates do") 
   }
 }
 
+TEST_CASE("bulk::blur keeps its bits where results pass the caches by") {
+  const bulk::texel_code half{binary16::value, {}};
+  const image<float> values = noise(2048, 1030, 1, 2);  // over 4 MiB, in either storage
+  image<std::uint16_t> in(2048, 1030), expected = in;
+  bulk::encode(half.format, half.rule, values.texels, std::span(in.texels));
+  const kernel w = gaussian_kernel(9, 2);
+  const image<float> both = along_y(along_x(values, w, address::clamp, 0), w, address::clamp, 0);
+  bulk::blur(half, in, w, address::clamp, {0, 1030}, expected, bulk::instruction_set::scalar);
+  for (const auto set : bulk_cases::sets()) {
+    CAPTURE(bulk_cases::name_of(set));
+    image<float> out(2048, 1030);
+    bulk::blur(values, w, address::clamp, {0, 1030}, out, set);
+    CHECK(difference(out, both) == "");
+    image<std::uint16_t> codes(2048, 1030);
+    bulk::blur(half, in, w, address::clamp, {0, 1030}, codes, set);
+    CHECK(difference(codes, expected) == "");
+  }
+}
+
 TEST_CASE("bulk::blur refuses what is no blur") {
   const image<float> in(4, 4);
   image<float> out(4, 4), other(4, 5);
