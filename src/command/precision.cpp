@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "command/commands.hpp"
+#include "command/scene_options.hpp"
 #include "command/study_options.hpp"
 #include "io/atomic_file.hpp"
 #include "io/build.hpp"
@@ -20,6 +21,8 @@ namespace bitshade::command {
 namespace {
 
 struct options {
+  std::string scene;
+  std::shared_ptr<scene_options> how;
   std::string layers = "1,2,4,8", floors = "1e-4,9e-6", roundings = "1,3";
   double tolerated = 1.0 / 255, overlap = 0, exponent = 5, reach = 0;
   bool adversarial = false, joint = false, json = false;
@@ -114,18 +117,51 @@ void search_stages(const options& given, const asked& a, precision_findings& fou
   }
 }
 
+/// Each stage of vsm, lvsm and evsm2 on the scene, with a blur of nine taps.
+void search_on_scene(const options& given, const asked& a, precision_findings& found) {
+  const frame input = load_input(given.scene, *given.how);
+  found.scene = given.scene;
+  configuration c;
+  c.exponent = given.exponent;
+  c.overlap = given.overlap;
+  const auto all_stages = [&] {
+    for (const stage s : stages_of(c)) {
+      if (s == stage::filter) continue;  // its arithmetic is no format of its own
+      found.on_scene.push_back(
+          bit_search::search_scene(input, c, s, given.tolerated, given.how->threads));
+    }
+  };
+  for (const double floor : a.floors) {
+    c.min_variance = floor;
+    for (const int n : a.layers) {
+      c.method = n == 1 ? technique::vsm : technique::lvsm;
+      c.layers = n;
+      all_stages();
+    }
+    c.method = technique::evsm2;
+    c.layers = 1;
+    for (const stage s : {stage::store, stage::blur}) {
+      found.on_scene.push_back(
+          bit_search::search_scene(input, c, s, given.tolerated, given.how->threads));
+    }
+  }
+}
+
 void answer(const options& given) {
   const asked a = checked(given);
-  const std::string command = "bitshade precision" + given.arguments;
+  const std::string command = "bitshade precision" +
+                              (given.scene.empty() ? "" : " " + shell_quoted(given.scene)) +
+                              given.arguments;
   const std::filesystem::path folder = given.out;
   precision_findings found;
   found.tolerated = given.tolerated;
-  const bool everything = !given.adversarial && !given.joint;
+  const bool everything = given.scene.empty() && !given.adversarial && !given.joint;
   if (!given.out.empty()) make_output_folder(folder);
   if (everything || given.adversarial) {
     search_curves(given, a, found);
     search_stages(given, a, found);
   }
+  if (!given.scene.empty()) search_on_scene(given, a, found);
   if (everything || given.joint) {
     found.joint.tolerated = given.tolerated;
     found.joint.reach = given.reach;
@@ -169,6 +205,9 @@ void add_precision(CLI::App& app) {
       "break fewer, judged in exact arithmetic. Also draws floor, overlap, layers and bits "
       "together.");
   options* const o = given.get();
+  command->add_option(
+      "SCENE", o->scene,
+      "Search on this scene too, each stage alone in the format: " + scene_argument_help());
   command->add_option("--layers", o->layers, "Layers of an LVSM")
       ->capture_default_str()
       ->option_text("LIST");
@@ -194,13 +233,15 @@ void add_precision(CLI::App& app) {
   command->add_option("--exponent", o->exponent, "c of EVSM")
       ->capture_default_str()
       ->option_text("N");
-  command->add_flag("--adversarial", o->adversarial, "Only the search on footprints");
-  command->add_flag("--joint", o->joint, "Only floor, overlap, layers and bits together");
+  command->add_flag("--adversarial", o->adversarial, "The search on footprints, with a SCENE too");
+  command->add_flag("--joint", o->joint, "Floor, overlap, layers and bits together");
   command->add_option("--out", o->out, "Folder for precision.html, .csv and .json")
       ->option_text("DIR");
   command->add_flag("--json", o->json, "Print JSON instead of text");
+  given->how = add_scene_options(*command);
   command->footer(
       "Examples:\n"
+      "  bitshade precision garden --size 256 --layers 1,2 --min-variance 1e-4\n"
       "  bitshade precision --layers 1,2,4,8 --min-variance 1e-4 --out bits\n"
       "  bitshade precision --joint --min-variance 9e-4,1e-4,9e-6 --layers 1,2,4,8,16");
   command->callback([given, command] {

@@ -41,3 +41,18 @@ TEST_CASE("precision refuses what no number of bits can answer") {
   refused({"--tolerated", "2"}, "0.00392");
   refused({"--layers", "200", "--min-variance", "1e-4"}, "fewer layers");
 }
+
+TEST_CASE("precision on a scene finds no more bits than the bound asks for") {
+  const auto done = run_bitshade({"precision", "garden", "--size", "48", "--view", "32x20",
+                                  "--layers", "1,2", "--min-variance", "1e-4", "--json"});
+  CAPTURE(done.err);
+  REQUIRE(done.status == 0);
+  const json found = json::parse(done.out);
+  CHECK(found["on_scene"].size() == 10);
+  for (const auto& s : found["on_scene"]) {
+    CAPTURE(s.dump());
+    CHECK(s["found_bits"].get<int>() > 0);
+    CHECK(s["found_bits"].get<int>() <= s["predicted_bits"].get<int>());
+    CHECK(s["error"].get<double>() <= 1.0 / 255);
+  }
+}
