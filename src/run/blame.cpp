@@ -1,6 +1,9 @@
 #include "run/blame.hpp"
 
 #include <algorithm>
+#include <bit>
+
+#include "io/error.hpp"
 
 namespace bitshade {
 
@@ -9,6 +12,16 @@ const stage_blame& blame::guiltiest() const {
     return a.alone.rmse < b.alone.rmse;
   });
 }
+
+namespace {
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+}  // namespace
 
 blame blame_of(const frame& scene, const configuration& how, const stage_choices& choices,
                int threads) {
@@ -20,6 +33,11 @@ blame blame_of(const frame& scene, const configuration& how, const stage_choices
   blame result;
   result.exact = run(stage_set::none());
   result.visibility = run(stage_set::all());
+  if (choices.weight_bits == 0 && !choices.shading &&
+      !same_bits(result.visibility,
+                 run_pipeline(scene, how, make_plan(scene, how, threads), threads).visibility)) {
+    throw usage_error("this configuration has a stage that blame cannot take apart: " + how.key());
+  }
   result.whole = compare(result.visibility, result.exact);
   for (const stage s : stages_of(how)) {
     stage_blame one;

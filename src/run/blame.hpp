@@ -32,6 +32,9 @@ struct blame {
 };
 
 /// 2 + 2 runs a stage; `choices.in_format` is not read.
+///
+/// Failure  as run_staged(); usage_error where the stages together are not the plain run bit for
+///          bit, since the configuration then does something that no stage stands for.
 blame blame_of(const frame& scene, const configuration& how, const stage_choices& choices,
                int threads = 0);
 
