@@ -47,7 +47,7 @@ shared range_inputs(const encoding& e, std::size_t n) {
 
 std::string difference(const float* in, const float* got, std::size_t n, const encoding& e, const rules& r) {
   for (std::size_t j = 0; j < n; ++j) {
-    const float expected = static_cast<float>(round_to(e, in[j], r, random_bits(0, j)));
+    const float expected = static_cast<float>(round_to(e, in[j], r, rounding_bits(0, j)));
     if (std::bit_cast<std::uint32_t>(got[j]) == std::bit_cast<std::uint32_t>(expected)) continue;
     char text[120];
     std::snprintf(text, sizeof text, "%a gave %a instead of %a", double{in[j]}, double{got[j]}, double{expected});

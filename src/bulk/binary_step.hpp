@@ -1,19 +1,10 @@
-// Rounding a vector to a binary format, by integers and by adding a power of two. No branch, no memory: the same
-// time for every input, subnormals included.
+// Rounding a vector to a binary format under any rules, to codes or numbers, by integers and by adding a power of two.
+// No branch, no memory: the same time for every input, subnormals included. value_step.hpp is faster where it serves.
 #pragma once
 
 #include "bulk/plan.hpp"
 
 namespace bitshade::bulk_kernels {
-
-inline constexpr std::uint64_t gamma = 0x9e3779b97f4a7c15u;
-
-/// What a kernel leaves out.
-enum class shape : std::uint8_t {
-  plain,         ///< signed IEEE format, NaNs kept, nothing flushed; overflow: one magnitude (narrow), infinity (others)
-  plain_no_inf,  ///< the same without infinities: NaN and overflow are one case
-  full
-};
 
 /// One vector, rounded in direction D. The processor's own direction must be to nearest for nearest_even and
 /// toward zero for every other D.
@@ -23,7 +14,7 @@ enum class shape : std::uint8_t {
 /// is the significand, hidden bit included, so that codes come out with one addition.
 /// equal, wider: the unit is a fixed bit of the carrier's bits, so integer additions round. For `wider`, numbers
 /// that are subnormal in the carrier are converted from integers to normal ones first.
-template <class V, reach Reach, rounding D, shape Shape>
+template <class V, reach Reach, rounding D>
 struct binary_step {
   using f = typename V::f;
   using i = typename V::i;
@@ -35,7 +26,6 @@ struct binary_step {
   static constexpr word ones = ~word{0};
   static constexpr word unit_word = word{1} << fraction;  // one step of the exponent; the smallest normal number
   static constexpr word infinity_word = ((word{1} << V::exponent_bits) - 1) << fraction;
-  static constexpr bool plain_nearest = Shape == shape::plain && D == rounding::nearest_even && Reach == reach::equal;
 
   const i sign = V::all_bits(word{1} << (lane_bits - 1));
   const i magnitude = V::all_bits(ones >> 1);
@@ -44,7 +34,6 @@ struct binary_step {
   i lowest, highest, up, half, one, odd, shift, kept, low, left;
   i overflow_positive, overflow_negative, infinite, largest, smallest, nan, nan_payload, nan_shift, nan_sign;
   i sign_shift, sign_code, rebias, tiny_rebias, random_mask;
-  f limit;
   bool has_sign, more_random;
 
   [[gnu::always_inline]] binary_step(const plan& p, bool to_codes) {
@@ -81,7 +70,6 @@ struct binary_step {
     rebias = all(static_cast<word>(p.bias - lane_bias) << p.fraction_bits);
     tiny_rebias = all(static_cast<word>(lane_bias - 1 + fraction) << p.fraction_bits);
     random_mask = all(p.random_bits >= lane_bits ? ones : static_cast<word>(~(ones >> p.random_bits)));
-    limit = V::value(all(n.limit));
     has_sign = p.has_sign;
     more_random = p.random_bits > lane_bits;
   }
@@ -94,12 +82,12 @@ struct binary_step {
     bool undecided = false;  ///< stochastic: the bits at hand are not enough; the scalar definition decides
   };
 
-  [[gnu::always_inline]] rounded round(i x, std::uint64_t random) const {
+  [[gnu::always_inline]] rounded round(i x, i random) const {
     rounded r;
     const i a = V::and_(x, magnitude);
     if constexpr (Reach == reach::narrow) {
       r.exponent = V::imax(V::and_(x, infinity), lowest);
-      if constexpr (Shape == shape::full) r.exponent = V::imin(r.exponent, highest);
+      r.exponent = V::imin(r.exponent, highest);
       r.power = V::iadd(r.exponent, up);
       const f power = V::value(r.power);
       f b = V::value(a);
@@ -118,8 +106,7 @@ struct binary_step {
               random);
       }
     } else {
-      // To nearest nothing carries into the sign but a NaN, which is replaced later.
-      i u = plain_nearest ? x : a;
+      i u = a;
       if constexpr (Reach == reach::wider) {
         r.tiny = V::igt(V::all_bits(unit_word), a);
         u = V::select(r.tiny, V::bits(V::to_float(a)), a);
@@ -144,18 +131,6 @@ struct binary_step {
     i v;
     if constexpr (Reach == reach::narrow) {
       v = V::bits(V::sub(V::value(r.sum), V::value(r.power)));
-      if constexpr (Shape != shape::full) {
-        const m over = Shape == shape::plain ? V::gt(V::value(a), limit) : V::nle(V::value(a), limit);
-        v = V::select(over, overflow_positive, v);
-        return V::merge(sign, x, V::and_(v, kept));  // numbers have no bits there; a NaN's payload is cut
-      }
-    } else if constexpr (Shape == shape::plain) {
-      // Overflow has carried into the exponent of infinity already.
-      v = V::select(V::nan(V::value(x)), V::or_(x, quiet), r.sum);
-      v = V::and_(v, kept);
-      if constexpr (plain_nearest) return v;
-      if constexpr (Reach == reach::wider) v = V::select(r.tiny, V::to_int(V::value(v)), v);
-      return V::merge(sign, x, v);
     } else {
       v = V::and_(r.sum, kept);
       if constexpr (Reach == reach::wider) v = V::select(r.tiny, V::to_int(V::value(v)), v);
@@ -193,8 +168,8 @@ struct binary_step {
   }
 
   /// One unit more where random bits and discarded bits add up to a unit: quotient.hpp, rounds_up.
-  [[gnu::always_inline]] void carry(rounded& r, i part, std::uint64_t random) const {
-    const i drawn = V::and_(V::random(random), random_mask);
+  [[gnu::always_inline]] void carry(rounded& r, i part, i random) const {
+    const i drawn = V::and_(random, random_mask);
     const i missing = V::xor_(V::and_(part, random_mask), V::all_bits(ones));
     r.sum = V::iadd(r.sum, V::keep(V::ugt(drawn, missing), one));
     // All bits at hand add up to ones: the ones that were cut off decide. Once in 2^32, or for n < 32 never.

@@ -33,7 +33,7 @@ void define(const plan& p, const void* source, void* target, std::size_t n, std:
   Out* out = static_cast<Out*>(target);
   const bool draws = p.direction == rounding::stochastic;
   for (std::size_t j = 0; j < n; ++j) {
-    const std::uint64_t random = draws ? random_bits(p.seed, p.counter + first + j) : 0;
+    const std::uint64_t random = draws ? rounding_bits(p.seed, p.counter + first + j) : 0;
     if constexpr (What == operation::decode) {
       out[j] = static_cast<Out>(decode(p.format, in[j], p.rule));
     } else if constexpr (What == operation::encode) {
@@ -121,12 +121,18 @@ void work(const encoding& e, const rules& r, std::span<const In> in, std::span<O
     direct = choose(p, wanted, set);
   }
   in_chunks(in.size(), how.threads, [&](std::size_t begin, std::size_t n) {
-    if (begin == 0 || r.direction != rounding::stochastic) {
+    if (r.direction != rounding::stochastic) {
       return run<What>(p, direct, in.data() + begin, out.data() + begin, n, set);
     }
-    plan part = p;
-    advance(part, begin);
-    run<What>(part, direct, in.data() + begin, out.data() + begin, n, set);
+    // Kernels stay within one stream of random bits (random.hpp: 2^33 numbers).
+    constexpr std::uint64_t stream = std::uint64_t{1} << 33;
+    for (const std::size_t end = begin + n; begin < end;) {
+      plan part = p;
+      advance(part, begin);
+      const auto m = static_cast<std::size_t>(std::min<std::uint64_t>(end - begin, stream - part.counter % stream));
+      run<What>(part, direct, in.data() + begin, out.data() + begin, m, set);
+      begin += m;
+    }
   });
 }
 

@@ -46,18 +46,21 @@ chosen with_code(char letter, F f) {
 template <class V, reach Reach, class Io>
 chosen choose_round_binary(const plan& p) {
   const lane_numbers& n = sizeof(typename V::word) == 4 ? p.single : p.wide;
-  if (p.plain && p.direction == rounding::nearest_even) {
-    if (p.special == specials::single_nan) {
-      if constexpr (Reach == reach::narrow) {
-        return {round_binary<V, Reach, rounding::nearest_even, shape::plain_no_inf, Io>, setting::nearest};
-      }
-    } else if (Reach == reach::narrow || n.natural_overflow) {
-      return {round_binary<V, Reach, rounding::nearest_even, shape::plain, Io>, setting::nearest};
-    }
-  }
-  return with_direction<V::has_random>(p.direction, [](auto d) -> chosen {
+  const bool directed = p.direction == rounding::toward_zero || p.direction == rounding::to_odd ||
+                        p.direction == rounding::up || p.direction == rounding::down;
+  const bool ieee = p.special == specials::ieee, spare = p.fraction_bits + 2 <= V::fraction_bits;
+  bool fast = p.keeps && (spare || Reach == reach::equal);
+  fast = fast && (Reach == reach::narrow ? directed || p.one_overflow : ieee && n.natural_overflow);
+  return with_direction<V::has_random>(p.direction, [&](auto d) -> chosen {
     constexpr rounding D = decltype(d)::value;
-    return {round_binary<V, Reach, D, shape::full, Io>, setting_of(D)};
+    if (!fast) return {round_binary<V, Reach, D, Io>, setting_of(D)};
+    if constexpr (Reach != reach::narrow) {
+      return {round_values<V, D, Io, shared_exponent_value<V, D, Reach == reach::wider>>, setting_of(D)};
+    } else if (ieee) {
+      return {round_values<V, D, Io, narrow_value<V, D, true>>, setting_of(D)};
+    } else {
+      return {round_values<V, D, Io, narrow_value<V, D, false>>, setting_of(D)};
+    }
   });
 }
 
@@ -107,8 +110,12 @@ chosen choose_single(const plan& p, request r) {
       if (decoding) {
         return with_code<false>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, setting::nearest}; });
       }
+      if (r.what == operation::round) {
+        return with_direction<true>(p.direction, [](auto d) -> chosen {
+          return {round_norm_in<V, decltype(d)::value>, setting::nearest};
+        });
+      }
       if (p.direction != rounding::nearest_even) return {};
-      if (r.what == operation::round) return {round_norm<V, float>, setting::nearest};
       return with_code<false>(r.out, [](auto c) -> chosen {
         return {encode_norm<V, rounding::nearest_even, float, decltype(c)>, setting::nearest};
       });

@@ -8,30 +8,23 @@
 
 namespace bitshade::bulk_kernels::avx2 {
 
-/// Four 64-bit products' low halves, of which AVX2 has only 32-bit ones.
-inline __m256i multiply64(__m256i a, __m256i b) {
-  const __m256i cross = _mm256_mullo_epi32(a, _mm256_shuffle_epi32(b, 0xb1));
-  const __m256i sums = _mm256_add_epi32(cross, _mm256_srli_epi64(cross, 32));
-  return _mm256_add_epi64(_mm256_mul_epu32(a, b), _mm256_slli_epi64(sums, 32));
-}
-
-inline __m256i mix(__m256i z) {
-  z = multiply64(_mm256_xor_si256(z, _mm256_srli_epi64(z, 30)),
-                 _mm256_set1_epi64x(static_cast<long long>(0xbf58476d1ce4e5b9u)));
-  z = multiply64(_mm256_xor_si256(z, _mm256_srli_epi64(z, 27)),
-                 _mm256_set1_epi64x(static_cast<long long>(0x94d049bb133111ebu)));
-  return _mm256_xor_si256(z, _mm256_srli_epi64(z, 31));
-}
-
-/// start, start + gamma, start + 2 gamma, start + 3 gamma.
-inline __m256i counters(std::uint64_t start) {
-  constexpr std::uint64_t gamma = 0x9e3779b97f4a7c15u;
-  return _mm256_set_epi64x(static_cast<long long>(start + 3 * gamma), static_cast<long long>(start + 2 * gamma),
-                           static_cast<long long>(start + gamma), static_cast<long long>(start));
-}
+/// 32-bit words of a register, whatever the lanes.
+struct words {
+  using i = __m256i;
+  static i word_add(i a, i b) { return _mm256_add_epi32(a, b); }
+  static i word_multiply(i a, i b) { return _mm256_mullo_epi32(a, b); }
+  template <int N>
+  static i word_shift(i a) { return _mm256_srli_epi32(a, N); }
+  template <int N>
+  static i word_shift_signed(i a) { return _mm256_srai_epi32(a, N); }
+  static i word_reverse(i a) {
+    return _mm256_shuffle_epi8(a, _mm256_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12, 3, 2, 1, 0, 7,
+                                                   6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  }
+};
 
 /// Eight binary32 lanes; predicates are lanes of ones or zeros.
-struct lanes32 {
+struct lanes32 : words {
   using element = float;
   using word = std::uint32_t;
   using f = __m256;
@@ -75,11 +68,13 @@ struct lanes32 {
   static i and_(i a, i b) { return _mm256_and_si256(a, b); }
   static i or_(i a, i b) { return _mm256_or_si256(a, b); }
   static i xor_(i a, i b) { return _mm256_xor_si256(a, b); }
+  static i without(i where, i a) { return _mm256_andnot_si256(where, a); }
   static i merge(i where, i a, i b) { return or_(and_(where, a), _mm256_andnot_si256(where, b)); }
   static i iadd(i a, i b) { return _mm256_add_epi32(a, b); }
   static i isub(i a, i b) { return _mm256_sub_epi32(a, b); }
   static i imax(i a, i b) { return _mm256_max_epi32(a, b); }
   static i imin(i a, i b) { return _mm256_min_epi32(a, b); }
+  static i umin(i a, i b) { return _mm256_min_epu32(a, b); }
   static i shl(i a, i n) { return _mm256_sllv_epi32(a, n); }
   static i shr(i a, i n) { return _mm256_srlv_epi32(a, n); }
   static i spread_sign(i a) { return _mm256_srai_epi32(a, 31); }
@@ -89,6 +84,7 @@ struct lanes32 {
   static m gt(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_GT_OQ)); }
   static m eq(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
   static m ne(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_NEQ_UQ)); }
+  static m le(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
   static m nle(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_NLE_UQ)); }
   static m nan(f a) { return bits(_mm256_cmp_ps(a, a, _CMP_UNORD_Q)); }
   static m igt(i a, i b) { return _mm256_cmpgt_epi32(a, b); }
@@ -100,6 +96,8 @@ struct lanes32 {
   static m inot(m a) { return xor_(a, all_bits(~word{0})); }
   static bool any(m a) { return _mm256_movemask_epi8(a) != 0; }
   static i select(m k, i a, i b) { return _mm256_blendv_epi8(b, a, k); }
+  /// a where s is negative, else b.
+  static i select_negative(i s, i a, i b) { return bits(_mm256_blendv_ps(value(b), value(a), value(s))); }
   static i keep(m k, i a) { return and_(k, a); }
 
   static i load_codes(const std::uint8_t* p) {
@@ -130,16 +128,12 @@ struct lanes32 {
   }
   static void store_half(std::uint16_t* p, half_codes v) { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), v); }
 
-  /// The upper halves of mix64(start + gamma * lane).
-  static i random(std::uint64_t start) {
-    const i low = mix(counters(start)), high = mix(counters(start + 4 * 0x9e3779b97f4a7c15u));
-    const i odd = bits(_mm256_shuffle_ps(value(low), value(high), 0xdd));  // 0 1 4 5 | 2 3 6 7
-    return _mm256_permute4x64_epi64(odd, 0xd8);
-  }
+  static i words(std::uint32_t upper, std::uint32_t) { return all_bits(upper); }
+  static i lane_numbers() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 };
 
 /// Four binary64 lanes; floats go in and out by conversion.
-struct lanes64 {
+struct lanes64 : words {
   using element = double;
   using word = std::uint64_t;
   using f = __m256d;
@@ -174,6 +168,7 @@ struct lanes64 {
   static i and_(i a, i b) { return _mm256_and_si256(a, b); }
   static i or_(i a, i b) { return _mm256_or_si256(a, b); }
   static i xor_(i a, i b) { return _mm256_xor_si256(a, b); }
+  static i without(i where, i a) { return _mm256_andnot_si256(where, a); }
   static i merge(i where, i a, i b) { return or_(and_(where, a), _mm256_andnot_si256(where, b)); }
   static i iadd(i a, i b) { return _mm256_add_epi64(a, b); }
   static i isub(i a, i b) { return _mm256_sub_epi64(a, b); }
@@ -197,6 +192,8 @@ struct lanes64 {
   static m inot(m a) { return xor_(a, all_bits(~word{0})); }
   static bool any(m a) { return _mm256_movemask_epi8(a) != 0; }
   static i select(m k, i a, i b) { return _mm256_blendv_epi8(b, a, k); }
+  /// a where s is negative, else b.
+  static i select_negative(i s, i a, i b) { return bits(_mm256_blendv_pd(value(b), value(a), value(s))); }
   static i keep(m k, i a) { return and_(k, a); }
 
   template <class Code>
@@ -217,7 +214,8 @@ struct lanes64 {
     return sub(value(iadd(a, bits(unit))), unit);
   }
 
-  static i random(std::uint64_t start) { return mix(counters(start)); }
+  static i words(std::uint32_t upper, std::uint32_t lower) { return all_bits(word{upper} << 32 | lower); }
+  static i lane_numbers() { return _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3); }
 };
 
 }  // namespace bitshade::bulk_kernels::avx2

@@ -8,8 +8,22 @@
 
 namespace bitshade::bulk_kernels::avx512 {
 
+/// 32-bit words of a register, whatever the lanes.
+struct words {
+  using i = __m512i;
+  static i word_add(i a, i b) { return _mm512_add_epi32(a, b); }
+  static i word_multiply(i a, i b) { return _mm512_mullo_epi32(a, b); }
+  template <int N>
+  static i word_shift(i a) { return _mm512_srli_epi32(a, N); }
+  template <int N>
+  static i word_shift_signed(i a) { return _mm512_srai_epi32(a, N); }
+  static i word_reverse(i a) {
+    return _mm512_shuffle_epi8(a, _mm512_set4_epi32(0x0c0d0e0f, 0x08090a0b, 0x04050607, 0x00010203));
+  }
+};
+
 /// Sixteen binary32 lanes. Integer lanes are two's complement; predicates are mask registers.
-struct lanes32 {
+struct lanes32 : words {
   using element = float;
   using word = std::uint32_t;
   using f = __m512;
@@ -49,12 +63,14 @@ struct lanes32 {
   static i and_(i a, i b) { return _mm512_and_si512(a, b); }
   static i or_(i a, i b) { return _mm512_or_si512(a, b); }
   static i xor_(i a, i b) { return _mm512_xor_si512(a, b); }
+  static i without(i where, i a) { return _mm512_andnot_si512(where, a); }
   /// where ? a : b, bit by bit.
   static i merge(i where, i a, i b) { return _mm512_ternarylogic_epi32(where, a, b, 0xca); }
   static i iadd(i a, i b) { return _mm512_add_epi32(a, b); }
   static i isub(i a, i b) { return _mm512_sub_epi32(a, b); }
   static i imax(i a, i b) { return _mm512_max_epi32(a, b); }
   static i imin(i a, i b) { return _mm512_min_epi32(a, b); }
+  static i umin(i a, i b) { return _mm512_min_epu32(a, b); }
   // Counts beyond the lane give zero.
   static i shl(i a, i n) { return _mm512_sllv_epi32(a, n); }
   static i shr(i a, i n) { return _mm512_srlv_epi32(a, n); }
@@ -65,6 +81,7 @@ struct lanes32 {
   static m gt(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
   static m eq(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
   static m ne(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NEQ_UQ); }
+  static m le(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   /// Not a <= b: greater, or NaN.
   static m nle(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NLE_UQ); }
   static m nan(f a) { return _mm512_cmp_ps_mask(a, a, _CMP_UNORD_Q); }
@@ -74,6 +91,8 @@ struct lanes32 {
   static m inot(m a) { return static_cast<m>(~a); }
   static bool any(m a) { return a != 0; }
   static i select(m k, i a, i b) { return _mm512_mask_blend_epi32(k, b, a); }
+  /// a where s is negative, else b.
+  static i select_negative(i s, i a, i b) { return select(_mm512_movepi32_mask(s), a, b); }
   /// a where the predicate holds, else zero bits.
   static i keep(m k, i a) { return _mm512_maskz_mov_epi32(k, a); }
 
@@ -103,26 +122,12 @@ struct lanes32 {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v);
   }
 
-  /// The upper halves of mix64(key + gamma * (counter + lane)).
-  static i random(std::uint64_t start) {
-    const i gamma = _mm512_set1_epi64(static_cast<long long>(0x9e3779b97f4a7c15u));
-    const i first = _mm512_add_epi64(_mm512_set1_epi64(static_cast<long long>(start)),
-                                     _mm512_mullo_epi64(gamma, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0)));
-    const i low = mix(first), high = mix(_mm512_add_epi64(first, _mm512_slli_epi64(gamma, 3)));
-    const i odd = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
-    return _mm512_permutex2var_epi32(low, odd, high);
-  }
-  static i mix(i z) {
-    z = _mm512_mullo_epi64(_mm512_xor_si512(z, _mm512_srli_epi64(z, 30)),
-                           _mm512_set1_epi64(static_cast<long long>(0xbf58476d1ce4e5b9u)));
-    z = _mm512_mullo_epi64(_mm512_xor_si512(z, _mm512_srli_epi64(z, 27)),
-                           _mm512_set1_epi64(static_cast<long long>(0x94d049bb133111ebu)));
-    return _mm512_xor_si512(z, _mm512_srli_epi64(z, 31));
-  }
+  static i words(std::uint32_t upper, std::uint32_t) { return all_bits(upper); }
+  static i lane_numbers() { return _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15); }
 };
 
 /// Eight binary64 lanes; floats go in and out by conversion.
-struct lanes64 {
+struct lanes64 : words {
   using element = double;
   using word = std::uint64_t;
   using f = __m512d;
@@ -159,6 +164,7 @@ struct lanes64 {
   static i and_(i a, i b) { return _mm512_and_si512(a, b); }
   static i or_(i a, i b) { return _mm512_or_si512(a, b); }
   static i xor_(i a, i b) { return _mm512_xor_si512(a, b); }
+  static i without(i where, i a) { return _mm512_andnot_si512(where, a); }
   static i merge(i where, i a, i b) { return _mm512_ternarylogic_epi64(where, a, b, 0xca); }
   static i iadd(i a, i b) { return _mm512_add_epi64(a, b); }
   static i isub(i a, i b) { return _mm512_sub_epi64(a, b); }
@@ -179,6 +185,8 @@ struct lanes64 {
   static m inot(m a) { return static_cast<m>(~a); }
   static bool any(m a) { return a != 0; }
   static i select(m k, i a, i b) { return _mm512_mask_blend_epi64(k, b, a); }
+  /// a where s is negative, else b.
+  static i select_negative(i s, i a, i b) { return select(_mm512_movepi64_mask(s), a, b); }
   static i keep(m k, i a) { return _mm512_maskz_mov_epi64(k, a); }
 
   static i load_codes(const std::uint8_t* p) {
@@ -204,11 +212,8 @@ struct lanes64 {
   /// Integers below 2^52 in binary64.
   static f to_float(i a) { return _mm512_cvtepi64_pd(a); }
 
-  static i random(std::uint64_t start) {
-    const i gamma = _mm512_set1_epi64(static_cast<long long>(0x9e3779b97f4a7c15u));
-    return lanes32::mix(_mm512_add_epi64(_mm512_set1_epi64(static_cast<long long>(start)),
-                                         _mm512_mullo_epi64(gamma, _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0))));
-  }
+  static i words(std::uint32_t upper, std::uint32_t lower) { return all_bits(word{upper} << 32 | lower); }
+  static i lane_numbers() { return _mm512_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7); }
 };
 
 }  // namespace bitshade::bulk_kernels::avx512

@@ -39,6 +39,7 @@ struct lanes32 {
   static i and_(i a, i b) { return _mm_and_si128(a, b); }
   static i or_(i a, i b) { return _mm_or_si128(a, b); }
   static i xor_(i a, i b) { return _mm_xor_si128(a, b); }
+  static i without(i where, i a) { return _mm_andnot_si128(where, a); }
   static i merge(i where, i a, i b) { return or_(and_(where, a), _mm_andnot_si128(where, b)); }
   static i iadd(i a, i b) { return _mm_add_epi32(a, b); }
   static i isub(i a, i b) { return _mm_sub_epi32(a, b); }
@@ -60,6 +61,8 @@ struct lanes32 {
   static m ieq(i a, i b) { return _mm_cmpeq_epi32(a, b); }
   static m inot(m a) { return xor_(a, all_bits(~word{0})); }
   static i select(m k, i a, i b) { return merge(k, a, b); }
+  /// a where s is negative, else b.
+  static i select_negative(i s, i a, i b) { return merge(spread_sign(s), a, b); }
   static i keep(m k, i a) { return and_(k, a); }
 
   static i load_codes(const std::uint8_t* p) {

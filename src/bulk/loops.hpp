@@ -2,57 +2,128 @@
 // so that no two files compile the same function with different flags.
 #pragma once
 
-#include "bulk/norm_step.hpp"
+#include "bulk/norm_value.hpp"
+#include "bulk/random_block.hpp"
+#include "bulk/value_step.hpp"
 
 namespace bitshade::bulk_kernels {
 
-/// Runs step(in, out, random) over whole vectors, and over the tail in a buffer.
+/// Runs step(in, out) over whole vectors, and over the tail in a buffer.
 template <class V, class In, class Out, class Step>
-[[gnu::always_inline]] inline void over(const plan& p, const void* source, void* target, std::size_t n, Step step) {
+[[gnu::always_inline]] inline void over(const void* source, void* target, std::size_t n, Step step) {
   constexpr std::size_t width = V::width;
   const In* in = static_cast<const In*>(source);
   Out* out = static_cast<Out*>(target);
-  std::uint64_t random = p.random_start;
   std::size_t j = 0;
-  for (; j + width <= n; j += width, random += gamma * width) step(in + j, out + j, random, j);
+#pragma GCC unroll 4
+  for (; j + width <= n; j += width) step(in + j, out + j);
   if (j == n) return;
   In last_in[width] = {};
   Out last_out[width];
   for (std::size_t k = 0; j + k < n; ++k) last_in[k] = in[j + k];
-  step(last_in, last_out, random, j);
+  step(last_in, last_out);
   for (std::size_t k = 0; j + k < n; ++k) out[j + k] = last_out[k];
 }
 
-template <class V, reach Reach, rounding D, shape Shape, class Io>
+/// Runs step(in, out, random bits) over blocks of 32 numbers whose counters 32 divides; the first and last may be
+/// shorter and go through a buffer. A step that cannot decide writes nothing and returns false: the definition then
+/// does the vector's numbers.
+template <class V, class In, class Out, class Step>
+[[gnu::always_inline]] inline void over_random(const plan& p, const void* source, void* target, std::size_t n,
+                                               Step step) {
+  constexpr std::size_t block = random_block<V>::numbers, width = V::width;
+  const In* in = static_cast<const In*>(source);
+  Out* out = static_cast<Out*>(target);
+  random_block<V> random(p);
+  // `first` is the number of the block's first element, below 0 (modulo 2^64) where the block began before the span.
+  const auto whole = [&](const In* a, Out* b, std::size_t first) {
+    random.draw();
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < block / width; ++k) {
+      if (!step(a + k * width, b + k * width, random.bits(k))) [[unlikely]] {
+        p.define(p, a + k * width, b + k * width, width, first + k * width);
+      }
+    }
+  };
+  const auto part = [&](std::size_t skip, std::size_t j, std::size_t m) {
+    In some_in[block] = {};
+    Out some_out[block];
+    for (std::size_t k = 0; k < m; ++k) some_in[skip + k] = in[j + k];
+    whole(some_in, some_out, j - skip);
+    for (std::size_t k = 0; k < m; ++k) out[j + k] = some_out[skip + k];
+  };
+  const std::size_t skip = p.counter % block;
+  std::size_t j = 0;
+  if (skip != 0) {
+    j = n < block - skip ? n : block - skip;
+    part(skip, 0, j);
+  }
+  for (; j + block <= n; j += block) whole(in + j, out + j, j);
+  if (j < n) part(0, j, n - j);
+}
+
+/// A step that rounds bits to bits, over spans of numbers.
+template <class V, rounding D, class Io, class Step>
+void round_values(const plan& p, const void* in, void* out, std::size_t n) {
+  const Step step(p);
+  if constexpr (D == rounding::stochastic) {
+    over_random<V, Io, Io>(p, in, out, n, [&](const Io* a, Io* b, typename V::i random) {
+      bool undecided = false;
+      const auto v = step(V::bits(V::load(a)), random, undecided);
+      if (!undecided) V::store(b, V::value(v));
+      return !undecided;
+    });
+  } else {
+    over<V, Io, Io>(in, out, n, [&](const Io* a, Io* b) { V::store(b, V::value(step(V::bits(V::load(a))))); });
+  }
+}
+
+template <class V, reach Reach, rounding D, class Io>
 void round_binary(const plan& p, const void* in, void* out, std::size_t n) {
-  const binary_step<V, Reach, D, Shape> step(p, false);
-  over<V, Io, Io>(p, in, out, n, [&](const Io* a, Io* b, std::uint64_t random, std::size_t j) {
+  const binary_step<V, Reach, D> step(p, false);
+  const auto one = [&](const Io* a, Io* b, typename V::i random) {
     const auto x = V::bits(V::load(a));
     const auto r = step.round(x, random);
-    if constexpr (D == rounding::stochastic) {
-      if (r.undecided) return p.define(p, a, b, V::width, j);
-    }
-    V::store(b, V::value(step.to_value(r, x)));
-  });
+    if (!r.undecided) V::store(b, V::value(step.to_value(r, x)));
+    return !r.undecided;
+  };
+  if constexpr (D == rounding::stochastic) over_random<V, Io, Io>(p, in, out, n, one);
+  else over<V, Io, Io>(in, out, n, [&](const Io* a, Io* b) { one(a, b, V::all_bits(0)); });
 }
 
 template <class V, reach Reach, rounding D, class In, class Code>
 void encode_binary(const plan& p, const void* in, void* out, std::size_t n) {
-  const binary_step<V, Reach, D, shape::full> step(p, true);
-  over<V, In, Code>(p, in, out, n, [&](const In* a, Code* b, std::uint64_t random, std::size_t j) {
+  const binary_step<V, Reach, D> step(p, true);
+  const auto one = [&](const In* a, Code* b, typename V::i random) {
     const auto x = V::bits(V::load(a));
     const auto r = step.round(x, random);
-    if constexpr (D == rounding::stochastic) {
-      if (r.undecided) return p.define(p, a, b, V::width, j);
-    }
-    V::store_codes(b, step.to_code(r, x));
-  });
+    if (!r.undecided) V::store_codes(b, step.to_code(r, x));
+    return !r.undecided;
+  };
+  if constexpr (D == rounding::stochastic) over_random<V, In, Code>(p, in, out, n, one);
+  else over<V, In, Code>(in, out, n, [&](const In* a, Code* b) { one(a, b, V::all_bits(0)); });
+}
+
+/// binary32 lanes, any direction.
+template <class V, rounding D>
+void round_norm_in(const plan& p, const void* in, void* out, std::size_t n) {
+  const norm_value<V, D> step(p);
+  if constexpr (D == rounding::stochastic) {
+    over_random<V, float, float>(p, in, out, n, [&](const float* a, float* b, typename V::i random) {
+      bool undecided = false;
+      const auto v = step(V::load(a), random, undecided);
+      if (!undecided) V::store(b, v);
+      return !undecided;
+    });
+  } else {
+    over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step(V::load(a))); });
+  }
 }
 
 template <class V, class Io>
 void round_norm(const plan& p, const void* in, void* out, std::size_t n) {
   const norm_step<V, rounding::nearest_even> step(p);
-  over<V, Io, Io>(p, in, out, n, [&](const Io* a, Io* b, std::uint64_t, std::size_t) {
+  over<V, Io, Io>(in, out, n, [&](const Io* a, Io* b) {
     V::store(b, step.to_value(V::sub(step.sum(V::load(a)), step.magic)));
   });
 }
@@ -60,9 +131,12 @@ void round_norm(const plan& p, const void* in, void* out, std::size_t n) {
 template <class V, rounding D, class In, class Code>
 void encode_norm(const plan& p, const void* in, void* out, std::size_t n) {
   const norm_step<V, D> step(p);
-  over<V, In, Code>(p, in, out, n, [&](const In* a, Code* b, std::uint64_t random, std::size_t) {
+  const auto one = [&](const In* a, Code* b, typename V::i random) {
     V::store_codes(b, step.to_code(V::load(a), random));
-  });
+    return true;
+  };
+  if constexpr (D == rounding::stochastic) over_random<V, In, Code>(p, in, out, n, one);
+  else over<V, In, Code>(in, out, n, [&](const In* a, Code* b) { one(a, b, V::all_bits(0)); });
 }
 
 template <class V, class Code, class Out>
@@ -72,7 +146,7 @@ void decode_norm(const plan& p, const void* in, void* out, std::size_t n) {
   const auto sign = V::all_bits(static_cast<word>(p.sign));
   const auto lowest = V::all_bits(static_cast<word>(word{0} - static_cast<word>(p.scale)));
   const bool snorm = p.kind == family::snorm;
-  over<V, Code, Out>(p, in, out, n, [&](const Code* a, Out* b, std::uint64_t, std::size_t) {
+  over<V, Code, Out>(in, out, n, [&](const Code* a, Out* b) {
     auto c = V::and_(V::load_codes(a), step.code_mask);
     c = V::isub(V::xor_(c, sign), sign);  // sign-extends
     if (snorm) c = V::imax(c, lowest);
@@ -102,7 +176,7 @@ void decode_binary(const plan& p, const void* in, void* out, std::size_t n) {
   const auto quieted = all(sizeof(Out) == 8 && p.special != specials::single_nan ? 0 : word{1} << (fraction - 1));
   const auto infinite_code = all(p.special == specials::single_nan ? p.max_code : p.max_code + 1);
   const bool flush = p.flush_loads;
-  over<V, Code, Out>(p, in, out, n, [&](const Code* a, Out* b, std::uint64_t, std::size_t) {
+  over<V, Code, Out>(in, out, n, [&](const Code* a, Out* b) {
     const auto c = V::load_codes(a);
     const auto m = V::and_(c, magnitude);
     const auto placed = V::shl(m, shift);
@@ -120,20 +194,20 @@ void decode_binary(const plan& p, const void* in, void* out, std::size_t n) {
 
 /// binary16 by the processor's own instructions, in its direction.
 template <class V, int Direction>
-void round_half(const plan& p, const void* in, void* out, std::size_t n) {
-  over<V, float, float>(p, in, out, n, [&](const float* a, float* b, std::uint64_t, std::size_t) {
+void round_half(const plan&, const void* in, void* out, std::size_t n) {
+  over<V, float, float>(in, out, n, [&](const float* a, float* b) {
     V::store(b, V::from_half(V::template to_half<Direction>(V::load(a))));
   });
 }
 template <class V, int Direction>
-void encode_half(const plan& p, const void* in, void* out, std::size_t n) {
-  over<V, float, std::uint16_t>(p, in, out, n, [&](const float* a, std::uint16_t* b, std::uint64_t, std::size_t) {
+void encode_half(const plan&, const void* in, void* out, std::size_t n) {
+  over<V, float, std::uint16_t>(in, out, n, [&](const float* a, std::uint16_t* b) {
     V::store_half(b, V::template to_half<Direction>(V::load(a)));
   });
 }
 template <class V>
-void decode_half(const plan& p, const void* in, void* out, std::size_t n) {
-  over<V, std::uint16_t, float>(p, in, out, n, [&](const std::uint16_t* a, float* b, std::uint64_t, std::size_t) {
+void decode_half(const plan&, const void* in, void* out, std::size_t n) {
+  over<V, std::uint16_t, float>(in, out, n, [&](const std::uint16_t* a, float* b) {
     V::store(b, V::from_half(V::load_half(a)));
   });
 }

@@ -7,7 +7,26 @@
 namespace bitshade::bulk {
 namespace {
 
-constexpr std::uint64_t golden = 0x9e3779b97f4a7c15u;
+/// Whether a direction goes away from zero where the magnitude is too large.
+bool leaves(rounding d, bool negative) {
+  switch (d) {
+    case rounding::toward_zero:
+    case rounding::to_odd: return false;
+    case rounding::up: return !negative;
+    case rounding::down: return negative;
+    default: return true;
+  }
+}
+
+/// Where the plan's first element finds its random bits.
+void start_random(bulk_kernels::plan& p) {
+  if (p.direction != rounding::stochastic) return;
+  for (int k = 0; k < 2; ++k) {
+    const auto stream = rounding_stream::of(p.seed, p.counter, 0, k != 0);
+    p.random_start[k] = stream.start, p.random_middle[k] = stream.middle;
+  }
+  p.random_step = rounding_stream::step_of(p.counter & ~std::uint64_t{31});
+}
 
 /// The numbers of an encoding, seen from lanes with F fraction bits and the given exponent bits. They are made with a
 /// few integer operations, so that short spans are worth a call; tests hold the kernels against decode.
@@ -33,7 +52,10 @@ bulk_kernels::lane_numbers numbers(const encoding& e, const bulk_kernels::plan& 
   // Half a unit more still rounds back, if the tie goes to an even largest number.
   n.limit = n.largest;
   if (unit > 0) n.limit += (std::uint64_t{1} << (unit - 1)) - (p.max_code & 1);
-  n.natural_overflow = n.overflow[0] == infinity && n.overflow[1] == infinity && n.infinite == infinity;
+  n.natural_overflow = n.infinite == infinity;
+  for (int s = 0; s < 2; ++s) {
+    n.natural_overflow = n.natural_overflow && n.overflow[s] == (leaves(p.direction, s != 0) ? infinity : n.largest);
+  }
   return n;
 }
 
@@ -62,18 +84,16 @@ void make_plan(bulk_kernels::plan& p, const encoding& e, const rules& r, std::ui
   p.min_normal_code = min_normal_bits(e);
   p.seed = seed;
   p.counter = first_counter;
-  p.random_start = 0;
-  if (r.direction == rounding::stochastic) p.random_start = mix64(seed + golden) + golden * first_counter;
+  start_random(p);
   if (e.kind == family::binary) {
     p.bias = bias(e);
     for (int s = 0; s < 2; ++s) p.overflow_code[s] = overflow_bits(e, s != 0, r, false) & ~p.sign;
     p.infinite_code = overflow_bits(e, false, r, true);
     p.single = numbers(e, p, 23, 8);
     p.wide = numbers(e, p, 52, 11);
-    p.plain = e.has_sign && !p.flush_values && !p.canonical_nan && p.overflow_code[0] == p.overflow_code[1] &&
-              p.overflow_code[0] == p.infinite_code &&
-              // Without infinities a kernel treats overflow and NaN alike.
-              (e.special == specials::ieee || p.infinite_code == p.nan_code);
+    p.keeps = e.has_sign && !p.flush_values && !p.canonical_nan;
+    p.one_overflow = p.overflow_code[0] == p.overflow_code[1] && p.overflow_code[0] == p.infinite_code &&
+                     (e.special == specials::ieee || p.infinite_code == p.nan_code);
     return;
   }
   const float_environment environment(float_environment::direction::nearest);
@@ -93,7 +113,7 @@ void make_plan(bulk_kernels::plan& p, const encoding& e, const rules& r, std::ui
 
 void advance(bulk_kernels::plan& p, std::uint64_t offset) {
   p.counter += offset;
-  p.random_start += golden * offset;
+  start_random(p);
 }
 
 }  // namespace bitshade::bulk

@@ -49,7 +49,7 @@ struct norm_step {
   /// nearest_even: the code plus `magic`.
   [[gnu::always_inline]] f sum(f x) const { return V::fma(clamp(x), scale, magic); }
 
-  [[gnu::always_inline]] i to_code(f x, std::uint64_t random) const {
+  [[gnu::always_inline]] i to_code(f x, i random) const {
     if constexpr (D == rounding::nearest_even) {
       return V::and_(V::isub(V::bits(sum(x)), V::bits(magic)), code_mask);
     } else {
@@ -86,7 +86,7 @@ struct norm_step {
   }
 
  private:
-  [[gnu::always_inline]] i nudge(i c, f part, i s, std::uint64_t random) const {
+  [[gnu::always_inline]] i nudge(i c, f part, i s, i random) const {
     const i one = V::all_bits(1);
     if constexpr (D == rounding::stochastic) {
       // part * 2^64 as an integer: its significand, shifted to where its exponent says.
@@ -96,7 +96,7 @@ struct norm_step {
       const i place = V::isub(V::shr(V::bits(part), V::all_bits(fraction)),
                               V::all_bits(static_cast<word>((1 << (V::exponent_bits - 1)) - 1 + fraction - 64)));
       const i bits = V::or_(V::shl(significand, place), V::shr(significand, V::isub(V::all_bits(0), place)));
-      const i drawn = V::and_(V::random(random), random_mask);
+      const i drawn = V::and_(random, random_mask);
       const i missing = V::xor_(V::and_(bits, random_mask), V::all_bits(ones));
       return V::iadd(c, V::keep(V::ugt(drawn, missing), one));
     } else {

@@ -27,7 +27,7 @@ struct lane_numbers {
   std::uint64_t largest;       ///< largest finite number
   std::uint64_t limit;         ///< largest number that does not overflow to nearest even
   std::uint64_t min_normal;
-  bool natural_overflow;       ///< everything too large becomes an infinity, infinities included
+  bool natural_overflow;       ///< overflow gives what integer additions on the lane's bits give by themselves
 };
 
 struct plan;
@@ -50,7 +50,8 @@ struct plan {
   bool flush_values;  ///< the same when rounding: reading flushes as well
   bool flush_loads;   ///< subnormal codes are read as zero
   bool canonical_nan;
-  bool plain;         ///< overflow gives one magnitude for every cause, nothing is flushed, NaNs are kept
+  bool keeps;         ///< signs, subnormals and NaNs
+  bool one_overflow;  ///< overflow gives one magnitude for every cause; without infinities NaN's
   std::uint64_t sign, max_code, nan_code, min_normal_code;
   std::uint64_t overflow_code[2], infinite_code;  ///< magnitudes
   lane_numbers single, wide;                      ///< seen from binary32 and binary64 lanes
@@ -58,7 +59,8 @@ struct plan {
   double scale, low, high;
   float single_step;   ///< fl32(1 / scale)
   double wide_step;    ///< fl64(1 / scale)
-  std::uint64_t random_start;  ///< mix64(seed + gamma) + gamma * counter of the first element
+  std::uint32_t random_start[2], random_middle[2];  ///< of rounding_stream: for the upper words, for the lower
+  std::uint32_t random_step;   ///< of the block of 32 numbers that the first element lies in
   std::uint64_t seed, counter;
 };
 

@@ -68,7 +68,7 @@ void round_lines(const options& given) {
       const encoding& e = format.components[i];
       const auto x = parse_number(texts[i]);
       if (!x) refuse(number, texts[i], "a number: write a decimal, a C99 hexadecimal float, a ratio a/b, inf or nan");
-      const std::uint64_t bits = encode(e, *x, r, random_bits(given.seed, number, i));
+      const std::uint64_t bits = encode(e, *x, r, rounding_bits(given.seed, number, i));
       word |= bits << position;
       position += e.width;
       const std::string value = hexadecimal(decode(e, bits));

@@ -54,7 +54,7 @@ TEST_CASE("bulk::round of dense inputs to every 16-bit binary format, in every d
     for (int d = 0; d < 7; ++d) {
       const rules r{.direction = static_cast<rounding>(d)};
       for (std::size_t j = 0; j < in.size(); ++j) {
-        expected[j] = static_cast<float>(round_to(e, in[j], r, random_bits(0, j)));
+        expected[j] = static_cast<float>(round_to(e, in[j], r, rounding_bits(0, j)));
       }
       for (const auto set : bulk_cases::sets()) {
         if (set == bulk::instruction_set::scalar) continue;

@@ -60,7 +60,7 @@ void convert_all(rounding d, std::uint64_t stride, verify::report& report) {
         hardware::up(in.data(), up.data(), block);
         hardware::down(in.data(), down.data(), block);
         for (std::size_t i = 0; i < block; ++i)
-          want[i] = derived(d, in[i], toward[i], (toward[i] & 0x8000) != 0 ? down[i] : up[i], random_bits(0, first + i));
+          want[i] = derived(d, in[i], toward[i], (toward[i] & 0x8000) != 0 ? down[i] : up[i], rounding_bits(0, first + i));
     }
     const auto compare = [&](verify::tally& t, const char* who) {
       for (std::size_t i = 0; i < block; ++i)
@@ -70,7 +70,7 @@ void convert_all(rounding d, std::uint64_t stride, verify::report& report) {
     // The definition takes its time: to nearest even all numbers, in other directions every eighth block.
     if (d == rounding::nearest_even || first / block / stride % 8 == first / (block * stride * 8) % 8) {
       for (std::size_t i = 0; i < block; ++i)
-        got[i] = static_cast<code>(encode(binary16::value, in[i], r, random_bits(0, first + i)));
+        got[i] = static_cast<code>(encode(binary16::value, in[i], r, rounding_bits(0, first + i)));
       compare(definition, "encode");
     }
     for (const auto set : {bulk::instruction_set::baseline, bulk::instruction_set::avx2, bulk::instruction_set::avx512}) {

@@ -28,7 +28,7 @@ void check_round(const encoding& e, const rules& r, const std::vector<T>& in) {
   const bulk::execution base{.seed = 7, .first_counter = 1000};
   std::vector<T> expected(in.size()), got(in.size());
   for (std::size_t j = 0; j < in.size(); ++j) {
-    expected[j] = static_cast<T>(round_to(e, in[j], r, random_bits(7, 1000 + j)));
+    expected[j] = static_cast<T>(round_to(e, in[j], r, rounding_bits(7, 1000 + j)));
   }
   for (const auto set : bulk_cases::sets()) {
     bulk::execution how = base;
@@ -47,7 +47,7 @@ void check_codes(const encoding& e, const rules& r, const std::vector<T>& in) {
   std::vector<Code> expected(in.size()), got(in.size());
   std::vector<T> expected_back(in.size()), back(in.size());
   for (std::size_t j = 0; j < in.size(); ++j) {
-    expected[j] = static_cast<Code>(encode(e, in[j], r, random_bits(7, 1000 + j)));
+    expected[j] = static_cast<Code>(encode(e, in[j], r, rounding_bits(7, 1000 + j)));
     expected_back[j] = static_cast<T>(decode(e, expected[j], r));
   }
   for (const auto set : bulk_cases::sets()) {

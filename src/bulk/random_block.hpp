@@ -1,0 +1,51 @@
+// The generator of stochastic rounding in vectors: the same words as rounding_stream's in formats/random.hpp, which
+// kernels may not call, since it is inline and compiled elsewhere with fewer instructions.
+#pragma once
+
+#include <cstddef>
+
+#include "bulk/plan.hpp"
+
+namespace bitshade::bulk_kernels {
+
+/// Random bits for 32 numbers at a time, from a counter that 32 divides: the upper 32 bits for binary32 lanes, all 64
+/// for binary64 ones. The first 16 numbers and the second share half of the work.
+template <class V>
+class random_block {
+  using i = typename V::i;
+  static constexpr std::uint32_t weyl = 0x9e3779b9u;
+  static i both(std::uint32_t w) { return V::words(w, w); }
+
+ public:
+  static constexpr std::size_t numbers = 32;
+  static constexpr std::size_t parts = 16 / V::width;  ///< vectors in half a block
+
+  [[gnu::always_inline]] explicit random_block(const plan& p)
+      : middle_(V::words(p.random_middle[0], p.random_middle[1])) {
+    const i start = V::words(p.random_start[0], p.random_start[1]);
+    for (std::size_t k = 0; k < parts; ++k) {
+      const i step = V::word_add(V::lane_numbers(), both(p.random_step + static_cast<std::uint32_t>(k * V::width)));
+      place_[k] = V::word_add(start, V::word_multiply(step, both(weyl)));
+    }
+  }
+
+  /// Goes on to the next 32 numbers, at first to the first.
+  [[gnu::always_inline]] void draw() {
+    for (std::size_t k = 0; k < parts; ++k) {
+      const i z = V::word_multiply(V::xor_(place_[k], V::template word_shift<16>(place_[k])), both(0x21f0aaadu));
+      mixed_[k] = V::xor_(V::xor_(z, V::template word_shift<15>(z)), middle_);
+      place_[k] = V::word_add(place_[k], both(weyl * 16));
+    }
+  }
+
+  /// Of the block's k-th vector.
+  [[gnu::always_inline]] i bits(std::size_t k) const {
+    if (k < parts) return V::word_multiply(mixed_[k], both(0x735a2d97u));
+    return V::word_multiply(V::word_reverse(mixed_[k - parts]), both(0xac4c1b51u));
+  }
+
+ private:
+  i middle_, place_[parts], mixed_[parts];
+};
+
+}  // namespace bitshade::bulk_kernels
