@@ -56,6 +56,9 @@ chosen choose_round_binary(const plan& p) {
     if (!fast) return {round_binary<V, Reach, D, Io>, setting_of(D)};
     if constexpr (Reach != reach::narrow) {
       return {round_values<V, D, Io, shared_exponent_value<V, D, Reach == reach::wider>>, setting_of(D)};
+    } else if (D == rounding::stochastic && p.random_bits < V::fraction_bits) {
+      return {ieee ? round_values<V, D, Io, narrow_value<V, D, true, D == rounding::stochastic>>
+                   : round_values<V, D, Io, narrow_value<V, D, false, D == rounding::stochastic>>, setting_of(D)};
     } else if (ieee) {
       return {round_values<V, D, Io, narrow_value<V, D, true>>, setting_of(D)};
     } else {
@@ -111,8 +114,9 @@ chosen choose_single(const plan& p, request r) {
         return with_code<false>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, setting::nearest}; });
       }
       if (r.what == operation::round) {
-        return with_direction<true>(p.direction, [](auto d) -> chosen {
-          return {round_norm_in<V, decltype(d)::value>, setting::nearest};
+        return with_direction<true>(p.direction, [&](auto d) -> chosen {
+          constexpr rounding D = decltype(d)::value;
+          return {p.has_sign ? round_norm_in<V, D, true> : round_norm_in<V, D, false>, setting::nearest};
         });
       }
       if (p.direction != rounding::nearest_even) return {};

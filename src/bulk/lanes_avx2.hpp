@@ -34,6 +34,7 @@ struct lanes32 : words {
   static constexpr int fraction_bits = 23;
   static constexpr int exponent_bits = 8;
   static constexpr bool has_fma = true;
+  static constexpr bool has_exponents = false;  ///< takes numbers apart by instructions
   static constexpr bool has_half = true;
   static constexpr bool has_random = true;
 
@@ -77,6 +78,8 @@ struct lanes32 : words {
   static i umin(i a, i b) { return _mm256_min_epu32(a, b); }
   static i shl(i a, i n) { return _mm256_sllv_epi32(a, n); }
   static i shr(i a, i n) { return _mm256_srlv_epi32(a, n); }
+  /// The leading bits, as many as the fraction has.
+  static i leading(i a) { return _mm256_srli_epi32(a, 9); }
   static i spread_sign(i a) { return _mm256_srai_epi32(a, 31); }
   static f to_float(i a) { return _mm256_cvtepi32_ps(a); }
   static i to_int(f a) { return _mm256_cvttps_epi32(a); }
@@ -143,6 +146,7 @@ struct lanes64 : words {
   static constexpr int fraction_bits = 52;
   static constexpr int exponent_bits = 11;
   static constexpr bool has_fma = true;
+  static constexpr bool has_exponents = false;
   static constexpr bool has_half = false;
   static constexpr bool has_random = true;
   static constexpr bool stores_to_nearest = false;
@@ -176,6 +180,8 @@ struct lanes64 : words {
   static i imin(i a, i b) { return select(igt(a, b), b, a); }
   static i shl(i a, i n) { return _mm256_sllv_epi64(a, n); }
   static i shr(i a, i n) { return _mm256_srlv_epi64(a, n); }
+  /// The leading bits, as many as the fraction has.
+  static i leading(i a) { return _mm256_srli_epi64(a, 12); }
   static i spread_sign(i a) { return igt(_mm256_setzero_si256(), a); }
 
   static m gt(f a, f b) { return bits(_mm256_cmp_pd(a, b, _CMP_GT_OQ)); }

@@ -33,6 +33,7 @@ struct lanes32 : words {
   static constexpr int fraction_bits = 23;
   static constexpr int exponent_bits = 8;
   static constexpr bool has_fma = true;
+  static constexpr bool has_exponents = true;  ///< takes numbers apart by instructions
   static constexpr bool has_half = true;
   static constexpr bool has_random = true;
 
@@ -56,6 +57,10 @@ struct lanes32 : words {
     const f above = _mm512_add_round_ps(a, b, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
     return _mm512_mask_blend_ps(_mm512_test_epi32_mask(bits(below), all_bits(1)), above, below);
   }
+  /// x = significand * 2^exponent, the significand from 1 to 2; of subnormal numbers too.
+  static f significand(f x) { return _mm512_getmant_ps(x, _MM_MANT_NORM_1_2, _MM_MANT_SIGN_src); }
+  static f exponent(f x) { return _mm512_getexp_ps(x); }
+  static f scale(f x, f e) { return _mm512_scalef_ps(x, e); }
   // As MAXPS and MINPS: the second operand where either is NaN.
   static f max(f a, f b) { return _mm512_max_ps(a, b); }
   static f min(f a, f b) { return _mm512_min_ps(a, b); }
@@ -74,6 +79,8 @@ struct lanes32 : words {
   // Counts beyond the lane give zero.
   static i shl(i a, i n) { return _mm512_sllv_epi32(a, n); }
   static i shr(i a, i n) { return _mm512_srlv_epi32(a, n); }
+  /// The leading bits, as many as the fraction has.
+  static i leading(i a) { return _mm512_srli_epi32(a, 9); }
   static i spread_sign(i a) { return _mm512_srai_epi32(a, 31); }
   static f to_float(i a) { return _mm512_cvtepi32_ps(a); }
   static i to_int(f a) { return _mm512_cvttps_epi32(a); }
@@ -137,6 +144,7 @@ struct lanes64 : words {
   static constexpr int fraction_bits = 52;
   static constexpr int exponent_bits = 11;
   static constexpr bool has_fma = true;
+  static constexpr bool has_exponents = false;
   static constexpr bool has_half = false;
   static constexpr bool has_random = true;
   static constexpr bool stores_to_nearest = true;
@@ -172,6 +180,8 @@ struct lanes64 : words {
   static i imin(i a, i b) { return _mm512_min_epi64(a, b); }
   static i shl(i a, i n) { return _mm512_sllv_epi64(a, n); }
   static i shr(i a, i n) { return _mm512_srlv_epi64(a, n); }
+  /// The leading bits, as many as the fraction has.
+  static i leading(i a) { return _mm512_srli_epi64(a, 12); }
   static i spread_sign(i a) { return _mm512_srai_epi64(a, 63); }
 
   static m gt(f a, f b) { return _mm512_cmp_pd_mask(a, b, _CMP_GT_OQ); }

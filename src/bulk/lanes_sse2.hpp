@@ -20,6 +20,7 @@ struct lanes32 {
   static constexpr int fraction_bits = 23;
   static constexpr int exponent_bits = 8;
   static constexpr bool has_fma = false;
+  static constexpr bool has_exponents = false;  ///< takes numbers apart by instructions
   static constexpr bool has_half = false;
   static constexpr bool has_random = false;
 

@@ -15,7 +15,10 @@ template <class V, class In, class Out, class Step>
   const In* in = static_cast<const In*>(source);
   Out* out = static_cast<Out*>(target);
   std::size_t j = 0;
+  for (; j + 4 * width <= n; j += 4 * width) {
 #pragma GCC unroll 4
+    for (std::size_t k = 0; k < 4; ++k) step(in + j + k * width, out + j + k * width);
+  }
   for (; j + width <= n; j += width) step(in + j, out + j);
   if (j == n) return;
   In last_in[width] = {};
@@ -105,9 +108,9 @@ void encode_binary(const plan& p, const void* in, void* out, std::size_t n) {
 }
 
 /// binary32 lanes, any direction.
-template <class V, rounding D>
+template <class V, rounding D, bool Signed>
 void round_norm_in(const plan& p, const void* in, void* out, std::size_t n) {
-  const norm_value<V, D> step(p);
+  const norm_value<V, D, Signed> step(p);
   if constexpr (D == rounding::stochastic) {
     over_random<V, float, float>(p, in, out, n, [&](const float* a, float* b, typename V::i random) {
       bool undecided = false;

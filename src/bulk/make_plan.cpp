@@ -25,6 +25,8 @@ void start_random(bulk_kernels::plan& p) {
     const auto stream = rounding_stream::of(p.seed, p.counter, 0, k != 0);
     p.random_start[k] = stream.start, p.random_middle[k] = stream.middle;
   }
+  p.random_weyl = rounding_stream::weyl;
+  for (int k = 0; k < 3; ++k) p.random_factors[k] = rounding_stream::mixers[k];
   p.random_step = rounding_stream::step_of(p.counter & ~std::uint64_t{31});
 }
 
@@ -32,9 +34,11 @@ void start_random(bulk_kernels::plan& p) {
 /// few integer operations, so that short spans are worth a call; tests hold the kernels against decode.
 bulk_kernels::lane_numbers numbers(const encoding& e, const bulk_kernels::plan& p, int fraction, int exponent_bits) {
   bulk_kernels::lane_numbers n{};
+  const std::uint64_t infinity = low_bits(exponent_bits) << fraction;
+  n.magnitude = low_bits(exponent_bits + fraction);
+  n.infinity = infinity;
   const int unit = fraction - e.fraction_bits;
   if (unit < 0) return n;  // no kernel of these lanes can take it
-  const std::uint64_t infinity = low_bits(exponent_bits) << fraction;
   const std::uint64_t quiet = infinity | std::uint64_t{1} << (fraction - 1);
   const int lane_bias = (1 << (exponent_bits - 1)) - 1;
   const auto bits_of = [&](std::uint64_t code) {

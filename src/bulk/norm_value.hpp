@@ -8,7 +8,7 @@ namespace bitshade::bulk_kernels {
 
 /// c, the integer nearest to |x| scale, and the sign of the exact error c - |x| scale, which one fma finds, give every
 /// direction. Where zero is the middle of the scale, up and down work on x with its sign, the others on |x|.
-template <class V, rounding D>
+template <class V, rounding D, bool Signed>
 struct norm_value {
   using f = typename V::f;
   using i = typename V::i;
@@ -23,7 +23,7 @@ struct norm_value {
   [[gnu::always_inline]] explicit norm_value(const plan& p) : step(p) {
     low = V::bits(step.low);
     high = V::bits(step.high);
-    magic = keeps_sign && p.has_sign ? V::all(0x1.8p23f) : unit;
+    magic = keeps_sign && Signed ? V::all(0x1.8p23f) : unit;
     random_scale = V::mul(step.scale, V::all(0x1p25f));
     random_magic = V::all(0x1.8p48f);  // the unit of its binade is 2^25
     random_step = V::all(0x1p-25f);
@@ -33,7 +33,7 @@ struct norm_value {
 
   [[gnu::always_inline]] f operator()(f x) const {
     const f y = clamp(x);
-    if (keeps_sign || !step.has_sign) return step.to_value(V::sub(V::value(code(y)), magic));
+    if constexpr (keeps_sign || !Signed) return step.to_value(V::sub(V::value(code(y)), magic));
     const f c = V::sub(V::value(code(V::value(V::and_(V::bits(y), magnitude)))), magic);
     return step.to_value(with_sign(c, y));
   }
@@ -42,22 +42,25 @@ struct norm_value {
   /// where that is nearer to a tie than what the roundings and the bits beyond the 24th may change.
   [[gnu::always_inline]] f operator()(f x, i random, bool& undecided) const {
     const f y = clamp(x);
-    const f a = step.has_sign ? V::value(V::and_(V::bits(y), magnitude)) : y;
+    const f a = Signed ? V::value(V::and_(V::bits(y), magnitude)) : y;
     // Twice the bits, with their leading one flipped as a sign, and one for the half behind the last.
     const i odd = V::or_(V::template word_shift_signed<7>(V::xor_(V::and_(random, random_mask), sign)), one);
     const f part = V::to_float(odd);
-    const f c = V::sub(V::add(V::fma(a, random_scale, part), random_magic), random_magic);
-    const f rest = V::add(V::sub(zero, V::fnma(a, random_scale, c)), part);
+    const f first = V::sub(V::add(V::fma(a, random_scale, part), random_magic), random_magic);
+    const f over = V::add(V::sub(zero, V::fnma(a, random_scale, first)), part);
+    // The sum's own rounding may have passed a tie: what is left of it tells.
+    const f again = V::sub(V::add(over, random_magic), random_magic);
+    const f c = V::add(first, again), rest = V::sub(over, again);
     undecided = V::any(V::gt(V::value(V::and_(V::bits(rest), magnitude)), random_limit));
     const f whole = V::mul(c, random_step);
-    return step.to_value(step.has_sign ? with_sign(whole, y) : whole);
+    return step.to_value(Signed ? with_sign(whole, y) : whole);
   }
 
  private:
   /// NaN gives 0, everything else the nearest bound that it passes. Bits of negative numbers, read as unsigned ones, grow
   /// with the magnitude.
   [[gnu::always_inline]] f clamp(f x) const {
-    if (!step.has_sign) return V::value(V::imin(V::bits(V::max(x, zero)), high));
+    if (!Signed) return V::value(V::imin(V::bits(V::max(x, zero)), high));
     const i number = V::keep(V::eq(x, x), V::bits(x));
     return V::value(V::umin(V::imin(number, high), low));
   }

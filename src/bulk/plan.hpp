@@ -20,8 +20,10 @@ enum class reach : std::uint8_t {
   wider    ///< more (binary32 lanes): every lane is a normal number of the format
 };
 
-/// Numbers that depend on the width of the lanes; bits of binary32 or binary64.
+/// Numbers that depend on the width of the lanes; bits of binary32 or binary64. Some are the same for every encoding:
+/// what a compiler knows to be constant it makes anew within the loops, in more instructions than a load takes.
 struct lane_numbers {
+  std::uint64_t magnitude, infinity;  ///< all bits but the sign; the exponent's
   std::uint64_t overflow[2];   ///< magnitude that an overflowing value becomes, positive and negative
   std::uint64_t infinite;      ///< magnitude that an infinity becomes
   std::uint64_t largest;       ///< largest finite number
@@ -60,6 +62,7 @@ struct plan {
   float single_step;   ///< fl32(1 / scale)
   double wide_step;    ///< fl64(1 / scale)
   std::uint32_t random_start[2], random_middle[2];  ///< of rounding_stream: for the upper words, for the lower
+  std::uint32_t random_weyl, random_factors[3];  ///< of rounding_stream
   std::uint32_t random_step;   ///< of the block of 32 numbers that the first element lies in
   std::uint64_t seed, counter;
 };

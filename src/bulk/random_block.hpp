@@ -13,7 +13,6 @@ namespace bitshade::bulk_kernels {
 template <class V>
 class random_block {
   using i = typename V::i;
-  static constexpr std::uint32_t weyl = 0x9e3779b9u;
   static i both(std::uint32_t w) { return V::words(w, w); }
 
  public:
@@ -21,31 +20,33 @@ class random_block {
   static constexpr std::size_t parts = 16 / V::width;  ///< vectors in half a block
 
   [[gnu::always_inline]] explicit random_block(const plan& p)
-      : middle_(V::words(p.random_middle[0], p.random_middle[1])) {
+      : middle_(V::words(p.random_middle[0], p.random_middle[1])), stride_(both(p.random_weyl * 16)) {
+    for (int k = 0; k < 3; ++k) factor_[k] = both(p.random_factors[k]);
+    const i weyl = both(p.random_weyl);
     const i start = V::words(p.random_start[0], p.random_start[1]);
     for (std::size_t k = 0; k < parts; ++k) {
       const i step = V::word_add(V::lane_numbers(), both(p.random_step + static_cast<std::uint32_t>(k * V::width)));
-      place_[k] = V::word_add(start, V::word_multiply(step, both(weyl)));
+      place_[k] = V::word_add(start, V::word_multiply(step, weyl));
     }
   }
 
   /// Goes on to the next 32 numbers, at first to the first.
   [[gnu::always_inline]] void draw() {
     for (std::size_t k = 0; k < parts; ++k) {
-      const i z = V::word_multiply(V::xor_(place_[k], V::template word_shift<16>(place_[k])), both(0x21f0aaadu));
+      const i z = V::word_multiply(V::xor_(place_[k], V::template word_shift<16>(place_[k])), factor_[0]);
       mixed_[k] = V::xor_(V::xor_(z, V::template word_shift<15>(z)), middle_);
-      place_[k] = V::word_add(place_[k], both(weyl * 16));
+      place_[k] = V::word_add(place_[k], stride_);
     }
   }
 
   /// Of the block's k-th vector.
   [[gnu::always_inline]] i bits(std::size_t k) const {
-    if (k < parts) return V::word_multiply(mixed_[k], both(0x735a2d97u));
-    return V::word_multiply(V::word_reverse(mixed_[k - parts]), both(0xac4c1b51u));
+    if (k < parts) return V::word_multiply(mixed_[k], factor_[1]);
+    return V::word_multiply(V::word_reverse(mixed_[k - parts]), factor_[2]);
   }
 
  private:
-  i middle_, place_[parts], mixed_[parts];
+  i middle_, stride_, factor_[3], place_[parts], mixed_[parts];
 };
 
 }  // namespace bitshade::bulk_kernels

@@ -40,6 +40,7 @@ struct value_numbers {
 };
 
 /// Fewer exponent bits than the lanes: subnormals are a matter of clamping. `Infinities`: else NaN stands for them.
+/// `Few`: fewer random bits than the lane's fraction has.
 ///
 /// To nearest even (processor: to nearest): with t = max(|x|, 3/2 of the smallest normal number) and s bits to lose,
 /// c = fl(2^s t + |x|), then c - fl(c - |x|) [Dekker71, Veltkamp's splitting]. Where c stays in the binade of 2^s t its
@@ -49,7 +50,7 @@ struct value_numbers {
 /// Others (processor: toward zero): E is the power of two in t. |x| + 2^s E, cut to its 24 bits, less 2^s E, is |x| cut
 /// to the format's grid. To nearest away adds half a unit to |x| first, stochastic rounding a random part of a unit:
 /// cutting twice is cutting once, since each grid holds the next.
-template <class V, rounding D, bool Infinities>
+template <class V, rounding D, bool Infinities, bool Few = false>
 struct narrow_value : value_numbers<V, D> {
   using n = value_numbers<V, D>;
   using f = typename n::f;
@@ -57,16 +58,16 @@ struct narrow_value : value_numbers<V, D> {
   using m = typename n::m;
   using word = typename n::word;
 
-  const i magnitude = n::all(n::ones >> 1), infinity = n::all(n::infinity_word), one = n::all(1);
-  const i quiet = n::all(n::infinity_word | n::unit_word >> 1);
-  i least, highest, kept, over_positive, over_negative, infinite, random_mask, random_unit, last_below;
+  const i one = n::all(1), quiet = n::all(n::infinity_word | n::unit_word >> 1);
+  i magnitude, infinity, least, highest, kept, over_positive, over_negative, infinite, random_mask, random_unit, last_below;
   f up, up_and_unit, half, limit, largest;
-  bool few_random, many_random;
 
   [[gnu::always_inline]] explicit narrow_value(const plan& p) {
     const lane_numbers& l = sizeof(word) == 4 ? p.single : p.wide;
     const int s = n::fraction - p.fraction_bits, low = 1 - p.bias;
     const word unit = word{1} << s;
+    magnitude = n::all(l.magnitude);
+    infinity = n::all(l.infinity);
     least = n::all(l.min_normal | (D == rounding::nearest_even ? n::unit_word >> 1 : 0));
     highest = V::bits(n::power(p.bias + 2));
     kept = n::all(~(unit - 1));
@@ -87,9 +88,7 @@ struct narrow_value : value_numbers<V, D> {
       limit = V::value(V::isub(V::bits(V::add(largest, V::value(two_units))), one));
     }
     last_below = n::all((static_cast<word>(low - p.fraction_bits + 1 + n::lane_bias) << n::fraction) - 1);
-    few_random = p.random_bits < n::fraction;
-    many_random = p.random_bits > n::fraction;
-    random_mask = n::all(few_random ? ~(n::ones >> p.random_bits) : n::ones);
+    random_mask = n::all(Few ? ~(n::ones >> p.random_bits) : n::ones);
   }
 
   [[gnu::always_inline]] i operator()(i x) const {
@@ -123,10 +122,10 @@ struct narrow_value : value_numbers<V, D> {
   [[gnu::always_inline]] i operator()(i x, i random, bool& undecided) const {
     const i a = V::and_(x, magnitude);
     const f e = V::value(V::and_(V::imax(a, least), infinity));
-    if (few_random) random = V::and_(random, random_mask);
-    const i drawn = V::or_(V::shr(random, n::all(n::lane_bits - n::fraction)), random_unit);
+    if constexpr (Few) random = V::and_(random, random_mask);
+    const i drawn = V::or_(V::leading(random), random_unit);
     const f b = V::fma(V::value(drawn), e, V::value(a));
-    if (many_random) undecided = V::any(V::ieq(V::bits(b), last_below));
+    if constexpr (!Few) undecided = V::any(V::ieq(V::bits(b), last_below));
     return overflowing(V::fnma(e, up_and_unit, V::fma(e, up, b)), b, x, a);
   }
 
@@ -159,11 +158,9 @@ struct shared_exponent_value : value_numbers<V, D> {
   using m = typename n::m;
   using word = typename n::word;
 
-  const i magnitude = n::all(n::ones >> 1), quiet = n::all(n::infinity_word | n::unit_word >> 1);
-  const i top = n::all(word{1} << (n::lane_bits - 2)), smallest = n::all(n::unit_word);
-  i kept, low, half, shift, one, left, random_mask;
-  f split;
-  bool few_random;
+  const i quiet = n::all(n::infinity_word | n::unit_word >> 1), smallest = n::all(n::unit_word);
+  i magnitude, kept, low, half, shift, one, left, random_mask;
+  f magic;
 
   [[gnu::always_inline]] explicit shared_exponent_value(const plan& p) {
     const int s = n::fraction - p.fraction_bits;
@@ -174,14 +171,14 @@ struct shared_exponent_value : value_numbers<V, D> {
     shift = n::all(static_cast<word>(s));
     one = n::all(s == 0 ? 0 : 1);
     left = n::all(static_cast<word>(n::lane_bits - s));
-    few_random = p.random_bits < s;
-    random_mask = n::all(few_random ? ~(n::ones >> p.random_bits) : n::ones);
-    split = V::add(n::power(s), n::power(0));
+    random_mask = n::all(p.random_bits < s ? ~(n::ones >> p.random_bits) : n::ones);
+    magic = V::add(n::power(s), n::power(s - 1));
+    magnitude = n::all(sizeof(word) == 4 ? p.single.magnitude : p.wide.magnitude);
   }
 
   [[gnu::always_inline]] i operator()(i x) const { return round(x, x); }
   [[gnu::always_inline]] i operator()(i x, i random, bool&) const {
-    return round(x, few_random ? V::and_(random, random_mask) : random);
+    return round(x, V::and_(random, random_mask));
   }
 
  private:
@@ -190,14 +187,12 @@ struct shared_exponent_value : value_numbers<V, D> {
     const i nan = V::and_(V::or_(x, quiet), kept);
     if constexpr (!Wider) {
       return V::select(is_nan, nan, V::and_(added(x, x, random), kept));
-    } else if constexpr (D == rounding::nearest_even) {
-      // Veltkamp's splitting works at every exponent, but for the top ones, where the product overflows: large numbers
-      // and infinity are taken 2^64 times as small.
-      const i g = V::shr(V::and_(x, top), n::all(1));
-      const f y = V::value(V::isub(x, g));
-      const f c = V::mul(y, split);
-      return V::select(is_nan, nan, V::iadd(V::bits(V::sub(c, V::sub(c, y))), g));
+    } else if constexpr (D == rounding::nearest_even && V::has_exponents) {
+      // Of a significand from 1 to 2 the format's last bit has one place.
+      const f rounded = V::sub(V::add(V::significand(V::value(x)), magic), magic);
+      return V::select(is_nan, nan, V::bits(V::scale(rounded, V::exponent(V::value(x)))));
     } else {
+      // Integers become normal numbers and back: arithmetic on subnormal ones is slow.
       const i a = V::and_(x, magnitude);
       const m tiny = V::igt(smallest, a);
       const i u = V::select(tiny, V::bits(V::to_float(a)), a);
