@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
     const auto start = std::chrono::steady_clock::now();
-    const auto splits = splits_of(garden, lloyd, 1);
+    const auto splits = splits_of(garden, lloyd, 1).splits;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (!std::is_sorted(splits.begin(), splits.end())) return 1;
     least = std::min(least, took.count());

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "command/animate.hpp"
 #include "command/commands.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
@@ -13,6 +14,7 @@
 #include "io/text.hpp"
 #include "report/folder.hpp"
 #include "report/maps.hpp"
+#include "run/lloyd.hpp"
 #include "run/pipeline.hpp"
 #include "run/study.hpp"
 
@@ -24,6 +26,7 @@ struct options {
   std::shared_ptr<scene_options> how;
   std::shared_ptr<study_options> cell;
   std::string out = "bitshade-out";
+  int frames = 0, steps = 1;  ///< of a series
   bool json = false;
 };
 
@@ -38,6 +41,27 @@ std::vector<double> without_gaps(std::vector<double> values) {
   return values;
 }
 
+/// How long relaxation takes and how far from the optimum it ends, all or two splits a frame.
+std::string lloyd_table(const std::vector<lloyd_comparison>& list) {
+  std::string out = "Lloyd relaxation   frames  teleports        cost  / least cost\n";
+  for (const lloyd_comparison& c : list)
+    out += pad_right("  " + c.name, 17) + pad_left(std::to_string(c.result.frames), 8) +
+           pad_left(std::to_string(c.result.teleportations), 11) + pad_left(brief(c.cost, 4), 12) +
+           pad_left(brief(c.ratio(), 5), 14) + '\n';
+  return out;
+}
+
+nlohmann::ordered_json to_json(const std::vector<lloyd_comparison>& list) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const lloyd_comparison& c : list)
+    out.push_back({{"splits", c.name},
+                   {"frames", c.result.frames},
+                   {"teleportations", c.result.teleportations},
+                   {"cost", c.cost},
+                   {"least_cost", c.least}});
+  return out;
+}
+
 void render(const options& given) {
   const std::vector<configuration> cells = given.cell->cells();
   if (cells.size() != 1)
@@ -45,6 +69,10 @@ void render(const options& given) {
                       std::to_string(cells.size()) +
                       ": give one technique, one format and one layer count, or use study");
   const configuration& c = cells.front();
+  if (given.frames > 0) {
+    animate({given.scene, *given.how, c, given.out, given.frames, given.steps, given.json});
+    return;
+  }
   const frame input = load_input(given.scene, *given.how);
   const int threads = given.how->threads, w = input.view_width, h = input.view_height;
   check_study_memory(input, cells);
@@ -85,18 +113,21 @@ void render(const options& given) {
     files[p.name] = path;
     list += "  " + path + "  (" + p.meaning + ")\n";
   }
+  std::vector<lloyd_comparison> relaxed;
+  if (relaxes(c.splits) && c.layers > 1) relaxed = compare_with_optimum(input, c, threads);
   if (given.json) {
-    std::cout << nlohmann::ordered_json{{"scene", given.scene},
-                                        {"configuration", c.key()},
-                                        {"files", files},
-                                        {"splits", done.splits},
-                                        {"format_error_rmse", m.format.rmse},
-                                        {"format_error_largest", m.format.largest},
-                                        {"total_error_rmse", m.total.rmse},
-                                        {"bleed_area", m.bleed_area},
-                                        {"acne_area", m.acne_area}}
-                     .dump(1)
-              << '\n';
+    nlohmann::ordered_json all{{"scene", given.scene},
+                               {"configuration", c.key()},
+                               {"files", files},
+                               {"splits", done.splits},
+                               {"format_error_rmse", m.format.rmse},
+                               {"format_error_largest", m.format.largest},
+                               {"total_error_rmse", m.total.rmse},
+                               {"bleed_area", m.bleed_area},
+                               {"acne_area", m.acne_area},
+                               {"notes", done.notes}};
+    if (!relaxed.empty()) all["lloyd"] = to_json(relaxed);
+    std::cout << all.dump(1) << '\n';
     return;
   }
   std::cout << label_of(c) << ": format error " << brief(m.format.rmse) << " RMSE, at most "
@@ -107,6 +138,9 @@ void render(const options& given) {
     for (const double s : done.splits) std::cout << ' ' << brief(s, 5);
     std::cout << '\n';
   }
+  if (!relaxed.empty()) std::cout << lloyd_table(relaxed);
+  for (const std::string& note : done.notes)
+    for (const std::string& line : wrap("Note: " + note + ".", 80)) std::cout << line << '\n';
   std::cout << list;
 }
 
@@ -129,11 +163,22 @@ void add_render(CLI::App& app) {
   command->add_option("--out", given->out, "Folder for the pictures")
       ->capture_default_str()
       ->option_text("DIR");
+  command
+      ->add_option("--animate", given->frames,
+                   "Pictures of a moving scene: so many, numbered, with the splits' path as a plot")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("FRAMES");
+  command->add_option("--steps", given->steps, "Steps of Lloyd relaxation between two of them")
+      ->needs("--animate")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str()
+      ->option_text("N");
   command->add_flag("--json", given->json, "Print JSON instead of text");
   command->footer(
       "Examples:\n"
       "  bitshade render garden --technique vsm --format half\n"
-      "  bitshade render garden --layers 2 --splits 0.94 --overlap 0 --min-variance 1e-7");
+      "  bitshade render garden --layers 2 --splits 0.94 --overlap 0 --min-variance 1e-7\n"
+      "  bitshade render beams --layers 4 --splits lloyd --lloyd-splits 2 --animate 48");
   command->callback([given] { render(*given); });
 }
 

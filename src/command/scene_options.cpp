@@ -76,6 +76,9 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
        [o](const std::string& value) { o->light_direction = vector_of(value, "--light"); });
   text("--light-position", "place of a point light", "X,Y,Z",
        [o](const std::string& value) { o->light_position = vector_of(value, "--light-position"); });
+  text("--light-to",
+       "with --animate: what --light or --light-position has become halfway through, and back",
+       "X,Y,Z", [o](const std::string& value) { o->light_to = vector_of(value, "--light-to"); });
   text("--light-range", "depths that become 0 and 1: 'tight' fits them to what the light sees",
        "tight|NEAR,FAR", [o](const std::string& value) {
          if (value != "tight") {

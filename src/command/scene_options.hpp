@@ -12,8 +12,8 @@ class App;
 
 namespace bitshade::command {
 
-/// Adds --size, --view, --param, --light, --light-position, --light-range, --camera, --metric,
-/// --receivers, --channel, --depth-range, --mask-invalid, --seed and --threads to `app`.
+/// Adds --size, --view, --param, --light, --light-position, --light-to, --light-range, --camera,
+/// --metric, --receivers, --channel, --depth-range, --mask-invalid, --seed and --threads to `app`.
 ///
 /// The options returned are filled while the arguments are parsed: read them in app's callback.
 /// Failure  values that make no sense throw usage_error there.

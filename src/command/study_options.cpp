@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "command/format_options.hpp"
+#include "command/technique_options.hpp"
 #include "io/build.hpp"
 #include "io/error.hpp"
 #include "io/nearest.hpp"
@@ -124,7 +125,7 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
   const std::string group = "What is computed";
   // The first option holds the options alive as long as the application.
   app.add_option("--techniques,--technique", o->techniques,
-                 "hard, pcf, vsm, savsm, lvsm, evsm2, evsm4, esm, csm, msm")
+                 "hard, pcf, vsm, savsm, lvsm, evsm2, evsm4, esm, csm, msm, deep")
       ->capture_default_str()
       ->option_text("LIST")
       ->group(group)
@@ -154,7 +155,7 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
       ->capture_default_str()
       ->option_text("N")
       ->group(group);
-  app.add_option("--blur", c->blur_taps, "Taps of the separable Gaussian: odd, 0 for none")
+  app.add_option("--blur", c->blur_taps, "Taps of the separable Gaussian: odd, 0 for none; the smallest box of savsm")
       ->capture_default_str()
       ->option_text("N")
       ->group(group);
@@ -196,31 +197,9 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
       ->group(group);
   app.add_flag("--slope-term", c->slope_term, "Receiver-slope term of the second moment")
       ->group(group);
-  app.add_flag("--transition", c->transition, "Blend two layers across their overlap")
-      ->group(group);
-  app.add_flag("--every-layer", c->every_layer, "Minimum over the layers, not the receiver's own")
-      ->group(group);
-  app.add_option("--bleeding-reduction", c->bleeding_reduction,
-                 "alpha of p' = (p - alpha)/(1 - alpha)")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--exponent", c->exponent, "c of ESM and EVSM")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--negative-exponent", c->negative_exponent, "Second c of evsm4")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--terms", c->terms, "Terms of a convolution shadow map")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--moment-bias", c->moment_bias, "Bias of four moments")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
+  add_layer_options(app, *c);
+  add_technique_options(app, *c);
+  add_lloyd_options(app, c->lloyd);
   return options;
 }
 

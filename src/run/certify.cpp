@@ -206,10 +206,12 @@ void refuse_uncovered(const configuration& how) {
   }
   if (how.exact())
     throw usage_error("exact arithmetic needs no certificate: name a format, such as unorm16");
-  if (how.every_layer || how.slope_term || how.noise_floor || how.second != second_moment::square) {
+  if (how.lookup != layer_lookup::own || how.direct_index || how.slope_term || how.noise_floor ||
+      how.powered() || how.second != second_moment::square) {
     throw usage_error(
         "certificates are derived for one layer a receiver and the plain square: leave out "
-        "--every-layer, --slope-term, --noise-floor and --second-moment");
+        "--lookup, --direct-index, --slope-term, --noise-floor, --bleeding-power and "
+        "--second-moment");
   }
 }
 

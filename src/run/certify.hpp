@@ -28,7 +28,7 @@ struct certificates {
 /// arithmetic's. No exact run is made.
 ///
 /// Error    evaluated in binary64 and widened by its own rounding: certain.
-/// Failure  usage_error for other techniques, --every-layer, --slope-term, --noise-floor and second
+/// Failure  usage_error for other techniques, --lookup, --slope-term, --noise-floor and second
 ///          moments other than the square.
 /// Source   docs/theory.md section 10.
 certificates certify(const frame& scene, const configuration& how, int threads = 0);

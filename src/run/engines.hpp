@@ -22,7 +22,8 @@ struct run_context {
 void run_variance_native(run_context& run);  ///< vsm, lvsm in binary32 or binary64
 void run_variance_exact(run_context& run);   ///< vsm, lvsm in integers of proven width
 void run_depth_native(run_context& run);     ///< hard, pcf in binary32 or binary64
-void run_depth_exact(run_context& run);      ///< hard, pcf without rounding
+void run_depth_exact(run_context& run);      ///< hard, pcf, deep without rounding
+void run_deep_native(run_context& run);
 
 void run_exponential_native(run_context& run);  ///< evsm2, evsm4, esm
 void run_evsm_exact(run_context& run);          ///< evsm2, evsm4 in certified enclosures

@@ -18,18 +18,21 @@ void run_layers(Engine& engine, const frame& scene, const configuration& how,
                 const layer_table& table, bool empty_layers, cell& result) {
   using light = typename Engine::light;
   result.visibility.assign(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
-  const bool blending = !table.blends.empty() && !how.every_layer;
-  const bool pairs = blending || (how.every_layer && table.intervals.size() > 1);
+  const bool several = how.lookup != layer_lookup::own && table.intervals.size() > 1;
+  const bool blending = !table.blends.empty() && how.lookup == layer_lookup::own;
+  const bool pairs = blending || several;
   std::vector<light> waiting(pairs ? scene.receivers.size() : 0);
 
   for (std::size_t i = 0; i < table.intervals.size(); ++i) {
     if (table.users[i].empty() && !empty_layers) continue;
     engine.generate(table.intervals[i]);
-    const bool first = i == 0, last = i + 1 == table.intervals.size();
     engine.shade(table.users[i], [&](std::uint32_t at, const light& p) {
-      if (how.every_layer && pairs) {
-        waiting[at] = first ? p : Engine::darker(waiting[at], p);
-        if (last) result.visibility[at] = engine.finished(waiting[at]);
+      if (several) {
+        waiting[at] = i == 0 ? p : Engine::darker(waiting[at], p);
+        const std::size_t last = how.lookup == layer_lookup::nearer
+                                     ? static_cast<std::size_t>(table.own[at])
+                                     : table.intervals.size() - 1;
+        if (i == last) result.visibility[at] = engine.finished(waiting[at]);
       } else if (blending && table.blends[at].near != table.blends[at].far) {
         const auto& pair = table.blends[at];
         if (static_cast<int>(i) == pair.near) {

@@ -15,9 +15,13 @@ layer_table layers_of(const frame& scene, const configuration& how, const plan& 
     const receiver& r = scene.receivers[i];
     if (!has_receiver(r)) continue;
     const auto index = static_cast<std::uint32_t>(i);
-    table.own[i] = layer_of(r.t, table.splits);
-    if (how.every_layer) {
-      for (auto& users : table.users) users.push_back(index);
+    table.own[i] =
+        how.direct_index ? uniform_layer_of(r.t, how.layers) : layer_of(r.t, table.splits);
+    if (how.lookup != layer_lookup::own) {
+      const auto count = how.lookup == layer_lookup::every
+                             ? table.users.size()
+                             : static_cast<std::size_t>(table.own[i]) + 1;
+      for (std::size_t k = 0; k < count; ++k) table.users[k].push_back(index);
     } else if (blending) {
       table.blends[i] = blended_layers(static_cast<double>(r.t), table.splits, how.overlap);
       table.users[static_cast<std::size_t>(table.blends[i].near)].push_back(index);

@@ -1,6 +1,8 @@
 #include "run/pipeline.hpp"
 
 #include "bitshade/formats/name.hpp"
+#include "bitshade/shadow/bleeding.hpp"
+#include "bitshade/shadow/layer_packing.hpp"
 #include "io/error.hpp"
 #include "run/engines.hpp"
 #include "run/parallel.hpp"
@@ -16,6 +18,9 @@ int bytes_of(const configuration& how, const plan& effects, int bits) {
   if (how.method == technique::savsm && parse_encoding(how.format)->kind != family::binary) {
     bits = bits <= 16 ? 32 : 64;  // sums of codes
   }
+  if (how.method == technique::lvsm && how.one_pass) {
+    return (bits * 4 * packed_textures(layers) + 7) / 8;
+  }
   return (bits * how.channels() * layers + 7) / 8;
 }
 
@@ -26,6 +31,8 @@ run_function function_of(const configuration& how) {
     case technique::hard:
     case technique::pcf:
       return how.exact() ? run_depth_exact : run_depth_native;
+    case technique::deep:
+      return how.exact() ? run_depth_exact : run_deep_native;
     case technique::vsm:
     case technique::lvsm:
       return how.exact() ? run_variance_exact : run_variance_native;
@@ -45,6 +52,20 @@ run_function function_of(const configuration& how) {
   }
   throw usage_error("technique " + std::string(name_of(how.method)) +
                     " is not part of this build: use another");
+}
+
+/// The second form of less bleeding, in the run's own arithmetic; exact lights are rounded to
+/// binary64 before it.
+void reduce_by_power(const configuration& how, bool wide, cell& result) {
+  const power_reduction form{how.bleeding_power, how.bleeding_lift};
+  for (double& p : result.visibility) {
+    if (p != p) continue;
+    p = wide ? reduce_bleeding_by_power(p, form)
+             : static_cast<double>(reduce_bleeding_by_power(static_cast<float>(p), form));
+  }
+  if (how.exact()) {
+    result.notes.push_back("the power of the light is taken in binary64, within 2^-45 of itself");
+  }
 }
 
 }  // namespace
@@ -67,6 +88,8 @@ cell run_pipeline(const frame& scene, const configuration& how, const plan& effe
   run_context context{scene,   how,   effects, layers, storage, lookup_of(how, effects),
                       threads, result};
   run(context);
+  if (how.powered() && !compares_depths(how.method)) reduce_by_power(how, how.exact() || storage.wide, result);
+  result.notes.insert(result.notes.begin(), effects.notes.begin(), effects.notes.end());
   return result;
 }
 

@@ -74,7 +74,8 @@ effect overlap_effect(const configuration& how, const receivers_seen& seen) {
 }
 
 effect transition_effect(const configuration& how, const receivers_seen& seen) {
-  effect e{"transition", layered(how) && how.transition && !how.every_layer, seen.in_overlap > 0,
+  effect e{"transition", layered(how) && how.transition && how.lookup == layer_lookup::own,
+           seen.in_overlap > 0,
            ""};
   e.evidence = layered(how) ? count_of(seen.in_overlap, seen.all, "receivers lie in an overlap")
                             : "there is one layer, and nothing to blend";
@@ -141,6 +142,7 @@ std::optional<double> smallest_function_of(const configuration& how) {
       return exp_of_double(-2 * how.negative_exponent) / 2;
     case technique::csm:
     case technique::msm:
+    case technique::deep:
       return 0;
     default:
       return std::nullopt;
@@ -199,9 +201,14 @@ plan make_plan(const frame& scene, const configuration& how, int threads) {
     throw usage_error(e.what());
   }
   plan result;
-  result.splits = splits_of(scene, how, threads);
+  auto found = splits_of(scene, how, threads);
+  result.splits = std::move(found.splits);
+  result.notes = std::move(found.notes);
   configuration plain = how;
-  if (!layered(how)) plain.transition = plain.every_layer = false;
+  if (!layered(how)) {
+    plain.transition = false;
+    plain.lookup = layer_lookup::own;
+  }
   result.effects = {{"transition", layered(how) && how.transition, true, ""}};
   const auto table = layers_of(scene, plain, result);
   for (const auto& users : table.users) result.layer_users.push_back(users.size());

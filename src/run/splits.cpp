@@ -2,60 +2,14 @@
 
 #include <algorithm>
 
-#include "bitshade/formats/encoding.hpp"
-#include "bitshade/shadow/lloyd.hpp"
-#include "bitshade/shadow/moments.hpp"
 #include "bitshade/shadow/optimal_splits.hpp"
 #include "bitshade/study/measures.hpp"
-#include "run/lookup.hpp"
-#include "run/parallel.hpp"
+#include "run/lloyd.hpp"
 #include "run/pipeline.hpp"
-#include "run/storage.hpp"
 
 namespace bitshade {
 
 namespace {
-
-/// The samples that the source takes: a 16-bit VSM of the whole depth range, read between texels.
-/// The storage is the same for every format of a study, so that the splits are, too.
-image<lloyd_sample> samples_of(const image<float>& depth, int threads) {
-  const auto storage = storage_named("unorm16");
-  image<float> moments(depth.width, depth.height, 2);
-  for_rows(threads, depth.height, [&](int y) {
-    warp_row<float>(depth.row(y), interval{0, 1}, moments.row(y), 2);
-    square_row<float>(moments.row(y), 2);
-    round_row(storage, moments.row(y));
-  });
-  image<lloyd_sample> samples(std::max(1, depth.width - 1), std::max(1, depth.height - 1));
-  for_rows(threads, samples.height, [&](int y) {
-    const int below = std::min(y + 1, depth.height - 1);
-    for (int x = 0; x < samples.width; ++x) {
-      const int right = std::min(x + 1, depth.width - 1);
-      const auto mean = [&](int c) {
-        return (static_cast<double>(moments.at(x, y, c)) + moments.at(right, y, c) +
-                moments.at(x, below, c) + moments.at(right, below, c)) /
-               4;
-      };
-      samples.at(x, y) = lloyd_sample_of(mean(0), mean(1));
-    }
-  });
-  return samples;
-}
-
-/// The same samples where the camera's receivers look: a texel that no one sees has no say, one
-/// that fills the picture has a large one.
-std::vector<lloyd_sample> seen_samples(const frame& scene, const image<lloyd_sample>& samples) {
-  std::vector<lloyd_sample> seen;
-  for (const receiver& r : scene.receivers) {
-    if (!has_receiver(r)) continue;
-    const auto at = [](float u, int size, int last) {
-      return std::clamp(texel_floor(static_cast<double>(u) * size - 0.5), 0, last);
-    };
-    seen.push_back(samples.at(at(r.u, scene.depth.width, samples.width - 1),
-                              at(r.v, scene.depth.height, samples.height - 1)));
-  }
-  return seen;
-}
 
 /// Splits of least measured error: one split after the other tries places around it, first far,
 /// then near, and keeps the one whose RMSE over every 16th receiver is smallest.
@@ -103,27 +57,25 @@ std::vector<double> searched_splits(const frame& scene, const configuration& how
   return interior;
 }
 
-/// Frames after which a scene that stands still is taken as it is.
-constexpr int most_frames = 1000;
-
 }  // namespace
 
-std::vector<double> splits_of(const frame& scene, const configuration& how, int threads) {
-  if (how.method != technique::lvsm || how.layers == 1) return {0, 1};
-  if (how.splits == split_rule::uniform) return uniform_splits(how.layers);
-  if (how.splits == split_rule::manual) return splits_from(how.manual_splits);
-  const auto all = samples_of(scene.depth, threads);
-  const lloyd_samples samples(how.splits == split_rule::lloyd_view ? seen_samples(scene, all)
-                                                                   : all.texels);
-  const auto interior = static_cast<std::size_t>(how.layers - 1);
-  if (how.splits == split_rule::optimal) return splits_from(optimal_splits(samples, interior));
-  const auto start = uniform_splits(how.layers);
-  lloyd_relaxation relaxation({start.begin() + 1, start.end() - 1});
-  relaxation.relax(samples, most_frames);
-  if (how.splits == split_rule::receivers) {
-    return splits_from(searched_splits(scene, how, relaxation.interior(), threads));
+found_splits splits_of(const frame& scene, const configuration& how, int threads) {
+  if (how.method != technique::lvsm || how.layers == 1) return {{0, 1}, {}};
+  if (how.splits == split_rule::uniform) return {uniform_splits(how.layers), {}};
+  const double narrowest = std::max(split_grid, on_split_grid(how.min_width));
+  if (how.splits == split_rule::manual) return {splits_from(how.manual_splits, narrowest), {}};
+  const lloyd_field field(scene, how, threads);
+  if (how.splits == split_rule::optimal) {
+    const auto count = static_cast<std::size_t>(how.layers - 1);
+    return {splits_from(optimal_splits(field.samples(), count), narrowest), {}};
   }
-  return splits_from(relaxation.interior());
+  const lloyd_result rest = relaxed_splits(field, how);
+  found_splits found{{}, notes_of(rest, how)};
+  found.splits = splits_from(how.splits == split_rule::receivers
+                                 ? searched_splits(scene, how, rest.interior, threads)
+                                 : rest.interior,
+                             narrowest);
+  return found;
 }
 
 }  // namespace bitshade

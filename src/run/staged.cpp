@@ -100,10 +100,16 @@ void refuse_uncovered(const configuration& how, const stage_choices& choices) {
     throw usage_error("stages of " + std::string(name_of(how.method)) +
                       " cannot be made exact one by one: use vsm, lvsm, evsm2 or evsm4");
   }
-  if (how.every_layer || how.noise_floor || how.slope_term) {
+  if (how.lookup != layer_lookup::own || how.direct_index || how.noise_floor || how.slope_term ||
+      how.powered()) {
     throw usage_error(
-        "stages are compared for one layer a receiver under one floor: leave out --every-layer, "
-        "--noise-floor and --slope-term");
+        "stages are compared for one layer a receiver under one floor: leave out --lookup, "
+        "--direct-index, --noise-floor, --slope-term and --bleeding-power");
+  }
+  if (relaxed(how) && (how.lloyd != lloyd_choices{} || how.min_width != 0)) {
+    throw usage_error(
+        "stages are compared with Lloyd's splits at rest, in exact sums: leave out the options "
+        "--lloyd-* and --min-width");
   }
   if (choices.shading && (!is_variance(how.method) || shading_in(*choices.shading) == nullptr)) {
     throw usage_error(std::string("shading can be done in ") + shading_arithmetics +

@@ -57,7 +57,7 @@ std::vector<stage> stages_of(const configuration& how);
 /// With all stages in the format and no other choice, bit for bit what run_pipeline gives; with
 /// none, what it gives for `exact`, wherever an enclosure decides the last bit.
 ///
-/// Failure  usage_error for other techniques and for what the stages do not cover: --every-layer,
+/// Failure  usage_error for other techniques and for what the stages do not cover: --lookup,
 ///          --noise-floor, a shading arithmetic that shading_in does not know.
 cell run_staged(const frame& scene, const configuration& how, const stage_choices& choices,
                 int threads = 0);

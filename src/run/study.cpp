@@ -224,8 +224,13 @@ study_result run_study(const frame& input, const study_request& request, databas
       if constexpr (std::is_same_v<decltype(value), double&>) value += 0.0;
     });
 
-    const picture_files files =
+    picture_files files =
         request.pictures ? cell_pictures(input, c, done, geometric, exact) : picture_files{};
+    if (request.shaded) {
+      const auto seen = without_gaps(done.visibility);
+      files["shaded"] = encode_png(shaded_map(input, seen));
+      files["layers"] = encode_png(layer_map(input, seen, done.layer));
+    }
     results.store_cell(r, files);
     result.rows.push_back(r);
     ++result.computed;

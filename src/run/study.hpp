@@ -20,6 +20,7 @@ struct study_request {
   int threads = 0;
   bool pictures = true;      ///< stored beside the figures
   bool verify_plan = false;  ///< run everything as well, and demand equal bits
+  bool shaded = false;       ///< also keep pictures of the shaded scene and of its layers
 };
 
 /// One cell run twice: with what the plan left, and with everything.

@@ -1,5 +1,6 @@
 #include "run/variance.hpp"
 
+#include "bitshade/shadow/layer_packing.hpp"
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
@@ -8,13 +9,77 @@ namespace bitshade {
 
 namespace {
 
+/// Moments of all layers from one reading of the depths, two layers in four channels side by side;
+/// then each layer's are filtered like those that a post-process makes, and their bits are equal.
 template <class T>
-void run_in(run_context& run) {
-  variance_technique<T> technique(run.how, run.storage, run.scene.depth);
-  native_engine<T, variance_technique<T>> engine(run.scene, run.how, technique, run.storage,
-                                                 run.look, run.threads, run.result);
+class one_pass_technique {
+ public:
+  one_pass_technique(const run_context& run, variance_technique<T> alone)
+      : intervals_(run.layers.intervals),
+        alone_(std::move(alone)),
+        all_(run.scene.depth.width, run.scene.depth.height,
+             4 * packed_textures(static_cast<int>(intervals_.size()))) {
+    const stopwatch watch(run.result.map_seconds);
+    const bool plain = run.how.second == second_moment::square && !run.how.slope_term;
+    for_rows(run.threads, all_.height, [&](int y) {
+      if (plain) {
+        layers_row<T>(run.scene.depth.row(y), intervals_, all_.row(y),
+                      static_cast<std::size_t>(all_.channels));
+        return;
+      }
+      auto technique = alone_;
+      std::vector<T> row(2 * static_cast<std::size_t>(all_.width));
+      for (std::size_t i = 0; i < intervals_.size(); ++i) {
+        technique.begin(intervals_[i]);
+        technique.fill(run.scene.depth, y, row);
+        copy(row, 2, 0, all_.row(y), static_cast<std::size_t>(all_.channels), 2 * i);
+      }
+    });
+  }
+
+  int channels() const { return 2; }
+  void begin(const interval& layer) {
+    alone_.begin(layer);
+    layer_ = static_cast<std::size_t>(std::find(intervals_.begin(), intervals_.end(), layer) -
+                                      intervals_.begin());
+  }
+  void fill(const image<float>&, int y, std::span<T> row) const {
+    copy(all_.row(y), static_cast<std::size_t>(all_.channels), 2 * layer_, row, 2, 0);
+  }
+  T light(std::span<const T> values, const T& t) const { return alone_.light(values, t); }
+
+ private:
+  /// Two channels of each texel, from channel `first` of `from` to channel `to_first` of `to`.
+  static void copy(std::span<const T> from, std::size_t from_channels, std::size_t first,
+                   std::span<T> to, std::size_t to_channels, std::size_t to_first) {
+    for (std::size_t x = 0; x < to.size() / to_channels; ++x) {
+      to[x * to_channels + to_first] = from[x * from_channels + first];
+      to[x * to_channels + to_first + 1] = from[x * from_channels + first + 1];
+    }
+  }
+
+  const std::vector<interval>& intervals_;
+  variance_technique<T> alone_;
+  image<T> all_;
+  std::size_t layer_ = 0;
+};
+
+template <class T, class Technique>
+void run_technique(run_context& run, Technique technique) {
+  native_engine<T, Technique> engine(run.scene, run.how, std::move(technique), run.storage,
+                                     run.look, run.threads, run.result);
   run_layers(engine, run.scene, run.how, run.layers,
              run.effects.simulates("layers without receivers"), run.result);
+}
+
+template <class T>
+void run_in(run_context& run) {
+  variance_technique<T> usual(run.how, run.storage, run.scene.depth);
+  if (run.how.method == technique::lvsm && run.how.one_pass) {
+    run_technique<T>(run, one_pass_technique<T>(run, std::move(usual)));
+  } else {
+    run_technique<T>(run, std::move(usual));
+  }
 }
 
 }  // namespace

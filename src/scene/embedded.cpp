@@ -39,6 +39,11 @@ parameter_values values_of(const scene_info& info, const scene_options& options)
     }
     values[name] = value;
   }
+  if (options.time) {
+    if (options.parameters.contains("animation"))
+      throw usage_error("--animate runs through all of --param animation: leave one of them out");
+    values["animation"] = *options.time;
+  }
   return {std::move(values), options.seed};
 }
 

@@ -29,8 +29,18 @@ void place_light(scene& s, const scene_options& options) {
   if (options.light_direction && options.light_position) {
     throw usage_error("--light and --light-position contradict each other: keep one of them");
   }
-  if (options.light_direction) aim_directional_light(s, *options.light_direction);
-  if (options.light_position) aim_point_light(s, *options.light_position);
+  const auto moved = [&](const glm::dvec3& from) {
+    if (!options.light_to) return from;
+    const double t = *options.time;  // there and back
+    return from + (*options.light_to - from) * (t < 0.5 ? 2 * t : 2 - 2 * t);
+  };
+  if (options.light_to && !options.time)
+    throw usage_error("--light-to moves the light of a series of pictures: give --animate, too");
+  if (options.light_position) {
+    aim_point_light(s, moved(*options.light_position));
+  } else if (options.light_direction || options.light_to) {
+    aim_directional_light(s, moved(options.light_direction.value_or(s.light.direction)));
+  }
 }
 
 [[noreturn]] void nothing_of_that_name(const std::string& name) {
@@ -55,15 +65,19 @@ frame load_input(const std::string& name, const scene_options& options) {
     return build_frame(s, options);
   }
   if (is_mesh_file(name)) {
+    if (options.time && !options.light_to)
+      throw usage_error("nothing moves in a mesh: with --animate give --light-to X,Y,Z");
     refuse_captured(options, "a mesh");
     scene s = load_mesh(name, options);
     place_light(s, options);
     return build_frame(s, options);
   }
   if (is_depth_file(name)) {
+    if (options.time)
+      throw usage_error(name + " is a captured depth map, which does not move: leave out --animate");
     refuse(options,
-           {"--size", "--param", "--light", "--light-position", "--light-range", "--camera",
-            "--metric", "--seed"},
+           {"--size", "--param", "--light", "--light-position", "--light-to", "--light-range",
+            "--camera", "--metric", "--seed"},
            "a captured depth map", "leave it out, the map has been made already");
     return load_captured(name, options);
   }

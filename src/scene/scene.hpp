@@ -78,6 +78,8 @@ struct scene_options {
   std::map<std::string, std::string> parameters;  ///< --param key=value, of an embedded scene
   std::optional<glm::dvec3> light_direction;      ///< --light x,y,z: from the light to the scene
   std::optional<glm::dvec3> light_position;       ///< --light-position x,y,z
+  std::optional<glm::dvec3> light_to;  ///< --light-to x,y,z: where that has gone at half the time
+  std::optional<double> time;          ///< of a moving scene, from 0 to 1; none: it stands still
   std::optional<camera_view> camera;              ///< --camera ex,ey,ez,tx,ty,tz[,degrees]
   std::string light_range;                        ///< --light-range tight | near,far
   std::string receivers;  ///< --receivers FILE | plane | self | DEPTH, with a captured depth map

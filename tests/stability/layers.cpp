@@ -84,7 +84,7 @@ TEST_CASE("hard case 35: where a layer is worse than no layers, and what cures i
   how.method = technique::lvsm;
   how.layers = 2;
   CHECK(run(scene, how)[0] == 1);  // both depths lie on the layer's ends, their mean at t
-  how.every_layer = true;
+  how.lookup = layer_lookup::every;
   CHECK(run(scene, how)[0] == 0.5);  // layer 1 knows the exact share
   for (const auto& format : formats) {
     how.format = format;

@@ -21,6 +21,18 @@ namespace bitshade {
 ///   costly_half    the mean of the costliest cluster's samples on the costlier side of its split
 enum class teleport_target { layer_mean, layer_middle, costly_half };
 
+/// Whose weights decide where a split teleports to.
+///
+///   all     every layer's
+///   frame   only of layers beside a split that the frame sums anyway: no reduction is added
+enum class teleport_scope { all, frame };
+
+/// What must hold still for splits to be at rest, through one visit to each of them.
+///
+///   move   each split: it moves by no more than `rest`
+///   cost   the cost: it changes by no more than the share `rest` of it
+enum class rest_measure { move, cost };
+
 /// The choices that the source leaves open, or makes and one may want to undo.
 struct lloyd_options {
   int splits_per_frame = 0;  ///< 0: all; the source moves two a frame
@@ -28,6 +40,11 @@ struct lloyd_options {
   bool teleport = true;      ///< a split whose samples weigh nothing moves to the heaviest layer
   teleport_target target = teleport_target::layer_mean;
   double hysteresis = 0.01;  ///< a teleportation must lower the cost by this share of it
+  teleport_scope scope = teleport_scope::all;
+  rest_measure measure = rest_measure::move;
+  double rest = split_grid;
+
+  friend bool operator==(const lloyd_options&, const lloyd_options&) = default;
 };
 
 /// The splits while they relax. Equal inputs give equal splits.
@@ -46,6 +63,8 @@ class lloyd_relaxation {
   const std::vector<double>& interior() const { return splits_; }
   /// How many teleportations there were.
   int teleportations() const { return teleportations_; }
+  /// Whether a field said of a sum that its samples had weight and it lost all of it.
+  bool lost() const { return lost_; }
 
   /// The cost of splits: each sample's weight times its squared distance to the nearest split.
   template <class Field>
@@ -84,18 +103,27 @@ class lloyd_relaxation {
     return largest;
   }
 
-  /// Steps until no split moves by more than `rest` in as many frames as visit each split once and
-  /// read it back. Returns the number of frames.
+  /// Steps until the splits are at rest for as many frames as visit each split once and read it
+  /// back. Returns the number of frames.
   template <class Field>
-  int relax(const Field& field, int most_frames, double rest = split_grid) {
+  int relax(const Field& field, int most_frames) {
     int still = 0;
     const int round = (options_.splits_per_frame == 0 || splits_.empty()
                            ? 1
                            : (static_cast<int>(splits_.size()) + options_.splits_per_frame - 1) /
                                  options_.splits_per_frame) +
                       options_.latency;
+    const bool by_cost = options_.measure == rest_measure::cost;
+    double before = by_cost ? cost(splits_, field) : 0;
     for (int frame = 1; frame <= most_frames; ++frame) {
-      still = step(field) <= rest ? still + 1 : 0;
+      const double move = step(field);
+      bool rests = move <= options_.rest;
+      if (by_cost) {
+        const double now = cost(splits_, field);
+        rests = std::fabs(now - before) <= options_.rest * before;
+        before = now;
+      }
+      still = rests ? still + 1 : 0;
       if (still >= round) return frame;
     }
     return most_frames;
@@ -130,6 +158,7 @@ class lloyd_relaxation {
       const std::size_t i = (next_ + n) % splits_.size();
       const auto [low, high] = cluster(splits_, i);
       const auto sums = field.between(low, high);
+      if constexpr (requires { sums.lost; }) lost_ = lost_ || sums.lost;
       if (sums.weight > 0) {
         result.moves.emplace_back(i, std::clamp(sums.mean(), 0.0, 1.0));
       } else {
@@ -141,17 +170,25 @@ class lloyd_relaxation {
       result.all = splits_;
       for (const auto& [i, split] : result.moves) result.all[i] = split;
       std::sort(result.all.begin(), result.all.end());
-      result.teleported = teleport(result.all, field);
+      std::vector<double> summed;
+      for (const auto& [i, split] : result.moves) summed.push_back(split);
+      result.teleported = teleport(result.all, summed, field);
     }
     return result;
   }
 
-  /// Where the samples that n splits serve worst would have one more.
+  /// Where the samples that n splits serve worst would have one more; below 0 if nowhere.
   template <class Field>
-  double target(const std::vector<double>& splits, const Field& field) const {
+  double target(const std::vector<double>& splits, std::span<const double> summed,
+                const Field& field) const {
     double most = 0, place = -1;
+    const auto counts = [&](double split) {
+      return options_.scope == teleport_scope::all ||
+             std::find(summed.begin(), summed.end(), split) != summed.end();
+    };
     if (options_.target == teleport_target::costly_half) {
       for (std::size_t i = 0; i < splits.size(); ++i) {
+        if (!counts(splits[i])) continue;
         const auto [low, high] = cluster(splits, i);
         for (const auto& [from, to] : {range{low, splits[i]}, range{splits[i], high}}) {
           const double cost = field.cost(from, to, splits[i]);
@@ -167,11 +204,13 @@ class lloyd_relaxation {
     double from = 0;
     for (std::size_t j = 0; j <= splits.size(); ++j) {
       const double to = j < splits.size() ? splits[j] : 2.0;
-      const auto sums = field.between(from, to);
-      if (static_cast<double>(sums.weight) > most) {
-        most = static_cast<double>(sums.weight);
-        place = options_.target == teleport_target::layer_mean ? sums.mean()
-                                                               : (from + std::min(to, 1.0)) / 2;
+      if ((j > 0 && counts(from)) || (j < splits.size() && counts(to)) || splits.empty()) {
+        const auto sums = field.between(from, to);
+        if (static_cast<double>(sums.weight) > most) {
+          most = static_cast<double>(sums.weight);
+          place = options_.target == teleport_target::layer_mean ? sums.mean()
+                                                                 : (from + std::min(to, 1.0)) / 2;
+        }
       }
       from = to;
     }
@@ -181,13 +220,14 @@ class lloyd_relaxation {
   /// Drops one split without samples, merging two layers, and places it at the target instead,
   /// provided that the cost falls by the hysteresis: the cost bounds how often that can happen.
   template <class Field>
-  bool teleport(std::vector<double>& splits, const Field& field) const {
+  bool teleport(std::vector<double>& splits, std::span<const double> summed,
+                const Field& field) const {
     for (std::size_t i = 0; i < splits.size(); ++i) {
       const auto [low, high] = cluster(splits, i);
       if (field.between(low, high).weight > 0) continue;
       std::vector<double> with = splits;
       with.erase(with.begin() + static_cast<std::ptrdiff_t>(i));
-      const double place = target(with, field);
+      const double place = target(with, summed, field);
       if (place < 0) return false;
       const double inside = std::min(place, 1.0);
       with.insert(std::upper_bound(with.begin(), with.end(), inside), inside);
@@ -204,6 +244,7 @@ class lloyd_relaxation {
   std::deque<decision> pending_;
   std::size_t next_ = 0;
   int teleportations_ = 0;
+  bool lost_ = false;
 };
 
 }  // namespace bitshade

@@ -25,6 +25,8 @@ struct lloyd_sample {
 struct weight_limits {
   double low = 4e-5;  ///< a little more than unorm16's own noise of 2.3e-5
   double high = 0.01;
+
+  friend bool operator==(const weight_limits&, const weight_limits&) = default;
 };
 
 /// The sample of filtered moments.

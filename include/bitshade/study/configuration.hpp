@@ -2,19 +2,21 @@
 #pragma once
 
 #include <array>
-#include <charconv>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bitshade/study/lloyd_choices.hpp"
+
 namespace bitshade {
 
 /// The techniques of the sources, in the order of their list ([LauritzenMcCool08], reports).
-enum class technique { hard, pcf, vsm, savsm, lvsm, evsm2, evsm4, esm, csm, msm };
+/// `deep` stores each texel's filtered visibility as a function of depth: no bound, no bleeding.
+enum class technique { hard, pcf, vsm, savsm, lvsm, evsm2, evsm4, esm, csm, msm, deep };
 
-inline constexpr std::array<std::string_view, 10> technique_names{
-    "hard", "pcf", "vsm", "savsm", "lvsm", "evsm2", "evsm4", "esm", "csm", "msm"};
+inline constexpr std::array<std::string_view, 11> technique_names{
+    "hard", "pcf", "vsm", "savsm", "lvsm", "evsm2", "evsm4", "esm", "csm", "msm", "deep"};
 
 constexpr std::string_view name_of(technique t) {
   return technique_names[static_cast<std::size_t>(t)];
@@ -51,6 +53,21 @@ enum class second_moment { square, square_of_stored, centred };
 inline constexpr std::array<std::string_view, 3> second_moment_names{"square", "square-of-stored",
                                                                      "centred"};
 
+/// Which layers a receiver looks up; of several the darkest counts.
+///
+///   own      the one that its depth falls into: the source's way
+///   nearer   that one and all in front of it: right where the own one is worse than no layers
+///   every    all of them
+enum class layer_lookup { own, nearer, every };
+
+inline constexpr std::array<std::string_view, 3> layer_lookup_names{"own", "nearer", "every"};
+
+/// Which solution of the moment problem bounds the light of four moments: depths on the whole line
+/// or in the map's range.
+enum class moment_bound { hamburger, hausdorff };
+
+inline constexpr std::array<std::string_view, 2> moment_bound_names{"hamburger", "hausdorff"};
+
 /// How the map is read while shading.
 enum class texel_filter { nearest, bilinear, trilinear };
 
@@ -69,7 +86,11 @@ struct configuration {
   std::vector<double> manual_splits;  ///< the layers-1 interior splits, for split_rule::manual
   double overlap = 0.01;              ///< delta of equation (8); engines: a few percent
   bool transition = false;            ///< blend two layers across their overlap
-  bool every_layer = false;           ///< the minimum over all layers, not the receiver's own
+  layer_lookup lookup = layer_lookup::own;
+  bool direct_index = false;  ///< uniform layers by ceil(t N) - 1 instead of by search
+  double min_width = 0;       ///< splits closer than this are merged; 0: one step of the grid
+  bool one_pass = false;      ///< all layers from one reading of the depths, packed in pairs
+  lloyd_choices lloyd;        ///< for the rules that start with Lloyd relaxation
 
   int blur_taps = 9;  ///< separable Gaussian; odd, 1 to 25; 0 and 1: none
   double blur_sigma = 2.0;
@@ -81,14 +102,18 @@ struct configuration {
   int max_anisotropy = 1;  ///< 1: isotropic; up to 16
 
   double bleeding_reduction = 0;  ///< alpha of (11), 0 <= alpha < 1
+  double bleeding_power = 1;      ///< the second form, p^power + lift; 1 and 0 are none
+  double bleeding_lift = 0;
   double exponent = 5;            ///< c of ESM and EVSM; capped by the format
   double negative_exponent = 5;   ///< the second constant of EVSM with four components
   int terms = 4;                  ///< M of CSM
   double moment_bias = 6e-5;      ///< of the four-moment technique
   bool optimised_basis = true;    ///< quantisation basis of the four-moment technique
+  moment_bound bound = moment_bound::hamburger;
 
   bool exact() const { return format == "exact"; }
   bool blurred() const { return blur_taps > 1; }
+  bool powered() const { return bleeding_power != 1 || bleeding_lift != 0; }
   /// Components a texel stores in one layer: 1 (depth), 2 or 4 moments, 2M Fourier terms.
   int channels() const;
   /// A text that is equal for two configurations exactly when their runs are: the database's key.
@@ -102,6 +127,17 @@ inline bool uses_floor(technique t) {
          t == technique::evsm2 || t == technique::evsm4;
 }
 
+/// Whether a technique gives the share of the footprint that is lit, not a bound: nothing bleeds.
+inline bool compares_depths(technique t) {
+  return t == technique::hard || t == technique::pcf || t == technique::deep;
+}
+
+/// Whether a rule starts with Lloyd relaxation.
+inline bool relaxes(split_rule rule) {
+  return rule == split_rule::lloyd || rule == split_rule::lloyd_view ||
+         rule == split_rule::receivers;
+}
+
 inline bool stores_variance(technique t) {
   return t == technique::vsm || t == technique::savsm || t == technique::lvsm;
 }
@@ -111,6 +147,7 @@ inline int configuration::channels() const {
     case technique::hard:
     case technique::pcf:
     case technique::esm:
+    case technique::deep:  // as many nodes as its footprint has depths: the run counts them
       return 1;
     case technique::vsm:
     case technique::savsm:
@@ -126,14 +163,6 @@ inline int configuration::channels() const {
   return 0;
 }
 
-namespace detail {
-inline std::string shortest(double value) {  // the shortest text that reads back as value
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
-}  // namespace detail
-
 inline std::string configuration::key() const {
   std::string text(name_of(method));
   const auto add = [&](std::string_view name, const std::string& value) {
@@ -142,6 +171,7 @@ inline std::string configuration::key() const {
   add("format", format);
   if (method == technique::lvsm) {
     add("layers", std::to_string(layers));
+    if (one_pass) add("generation", "one-pass");
     if (layers > 1) {
       if (splits == split_rule::manual) {
         std::string list;
@@ -154,7 +184,14 @@ inline std::string configuration::key() const {
       }
       add("overlap", detail::shortest(overlap));
       if (transition) add("transition", "on");
-      if (every_layer) add("every-layer", "on");
+      if (lookup != layer_lookup::own) {
+        add("lookup", std::string(layer_lookup_names[static_cast<std::size_t>(lookup)]));
+      }
+      if (direct_index && splits == split_rule::uniform) add("direct-index", "on");
+      if (min_width > 0 && splits != split_rule::uniform) {
+        add("min-width", detail::shortest(min_width));
+      }
+      if (relaxes(splits) && !lloyd.key().empty()) add("lloyd", lloyd.key());
     }
   }
   if (blurred() && method != technique::hard) {
@@ -182,9 +219,14 @@ inline std::string configuration::key() const {
   if (method == technique::msm) {
     add("moment-bias", detail::shortest(moment_bias));
     if (!optimised_basis) add("basis", "dense");
+    if (bound != moment_bound::hamburger) add("bound", "hausdorff");
   }
-  if (bleeding_reduction != 0 && method != technique::hard && method != technique::pcf) {
+  if (bleeding_reduction != 0 && !compares_depths(method)) {
     add("bleeding-reduction", detail::shortest(bleeding_reduction));
+  }
+  if (powered() && !compares_depths(method)) {
+    add("bleeding-power", detail::shortest(bleeding_power));
+    add("bleeding-lift", detail::shortest(bleeding_lift));
   }
   return text;
 }
@@ -213,6 +255,13 @@ inline void configuration::validate() const {
   if (!(overlap >= 0 && overlap <= 0.5)) {
     refuse("overlap = " + detail::shortest(overlap) + " is outside 0 to 0.5");
   }
+  if (!(min_width >= 0 && min_width <= 0.5)) {
+    refuse("min-width = " + detail::shortest(min_width) + " is outside 0 to 0.5");
+  }
+  if (direct_index && method == technique::lvsm && layers > 1 && splits != split_rule::uniform) {
+    refuse("a layer's index is computed directly from uniform splits alone: search the others");
+  }
+  lloyd.validate();
   if (blur_taps < 0 || blur_taps > 25 || (blur_taps != 0 && blur_taps % 2 == 0)) {
     refuse("blur = " + std::to_string(blur_taps) + " taps: give 0 or an odd number up to 25");
   }
@@ -230,6 +279,12 @@ inline void configuration::validate() const {
   if (!(bleeding_reduction >= 0 && bleeding_reduction < 1)) {
     refuse("bleeding reduction = " + detail::shortest(bleeding_reduction) +
            " is outside [0, 1): at 1 nothing would be left of any light");
+  }
+  if (!(bleeding_power > 0 && bleeding_power <= 100)) {
+    refuse("bleeding power = " + detail::shortest(bleeding_power) + " is outside 0 to 100");
+  }
+  if (!(bleeding_lift >= 0 && bleeding_lift <= 1)) {
+    refuse("bleeding lift = " + detail::shortest(bleeding_lift) + " is outside [0, 1]");
   }
   if (!(exponent > 0 && exponent <= 700 && negative_exponent > 0 && negative_exponent <= 700)) {
     refuse("an exponent is outside 0 to 700");

@@ -27,6 +27,7 @@ struct plan {
   std::vector<effect> effects;
   std::vector<double> splits;            ///< s_0 .. s_N of the layers, 0 and 1 included
   std::vector<std::size_t> layer_users;  ///< receivers that look up each layer
+  std::vector<std::string> notes;        ///< what the user should know of how the splits were found
 
   bool simulates(std::string_view name) const {
     const auto found = std::find_if(effects.begin(), effects.end(),

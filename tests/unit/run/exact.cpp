@@ -64,7 +64,7 @@ void check_against_rationals(const frame& scene, const configuration& how) {
       continue;
     }
     q expected;
-    if (how.every_layer) {
+    if (how.lookup == layer_lookup::every) {
       expected = in_layer(r, 0);
       for (int k = 1; k < static_cast<int>(maps.size()); ++k) {
         const q other = in_layer(r, k);
@@ -110,7 +110,7 @@ TEST_CASE("exact layers in integers equal rationals: transition, every layer, le
   how.bleeding_reduction = 0.3;
   check_against_rationals(scene, how);
   how.transition = false;
-  how.every_layer = true;
+  how.lookup = layer_lookup::every;
   check_against_rationals(scene, how);
 }
 
