@@ -1,5 +1,6 @@
 // `bitshade formats`: the formats by name, with limits derived from their encodings.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -33,6 +34,12 @@ double lowest(const encoding& e) {
   if (e.kind == family::fixed) return decode(e, sign_bit(e));
   if (e.kind == family::snorm) return -1;
   return e.has_sign ? -decode(e, max_bits(e)) : 0;
+}
+
+/// Enough for fixed16.16 to stay below 32768.
+std::string ten_digits(double x) {
+  char buffer[40];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::general, 10).ptr};
 }
 
 std::string aliases_of(const encoding& e, std::string_view name) {
@@ -82,14 +89,14 @@ void print_table() {
   const auto row = [](const std::string& name, const std::string& bits, const std::string& smallest,
                       const std::string& normal, const std::string& largest, const std::string& alias) {
     std::string line = pad_right(name, 12) + pad_left(bits, 4) + pad_left(smallest, 14) + pad_left(normal, 14) +
-                       pad_left(largest, 14);
+                       pad_left(largest, 18);
     if (!alias.empty()) line += "  also " + alias;
     std::cout << line << '\n';
   };
-  std::cout << pad_right("format", 12) << "bits      smallest        normal       largest\n";
+  std::cout << pad_right("format", 12) << "bits      smallest        normal           largest\n";
   for (const auto& [name, e] : listed()) {
     row(name, std::to_string(e.width), brief(decode(e, 1), 4),
-        e.kind == family::binary ? brief(decode(e, min_normal_bits(e)), 4) : "-", brief(decode(e, max_bits(e)), 6),
+        e.kind == family::binary ? brief(decode(e, min_normal_bits(e)), 4) : "-", ten_digits(decode(e, max_bits(e))),
         aliases_of(e, name));
   }
   std::cout << "r11g11b10     32  ue5m6, ue5m6 and ue5m5 in one word, the first lowest\n";

@@ -13,13 +13,14 @@
 #include "command/commands.hpp"
 #include "command/format_options.hpp"
 #include "io/error.hpp"
+#include "io/numbers.hpp"
 
 namespace bitshade::command {
 namespace {
 
 struct options {
   std::string format, rounding = "nearest-even", subnormal = "preserve", overflow = "ieee";
-  std::uint64_t seed = 0;
+  std::string seed = "0";
   bool json = false;
 };
 
@@ -51,6 +52,7 @@ void round_lines(const options& given) {
   r.direction = choose_rounding(given.rounding);
   if (choose_subnormal(given.subnormal) != subnormals::preserve) r.subnormal = subnormals::flush_output;
   r.overflow = choose_overflow(given.overflow);
+  const std::uint64_t seed = parse_seed(given.seed, "--seed");
   const std::size_t count = format.components.size();
 
   std::cin.tie(nullptr);  // a filter: no flush of its output for each line that it reads
@@ -68,7 +70,7 @@ void round_lines(const options& given) {
       const encoding& e = format.components[i];
       const auto x = parse_number(texts[i]);
       if (!x) refuse(number, texts[i], "a number: write a decimal, a C99 hexadecimal float, a ratio a/b, inf or nan");
-      const std::uint64_t bits = encode(e, *x, r, rounding_bits(given.seed, number, i));
+      const std::uint64_t bits = encode(e, *x, r, rounding_bits(seed, number, i));
       word |= bits << position;
       position += e.width;
       const std::string value = hexadecimal(decode(e, bits));
@@ -103,15 +105,19 @@ void add_round(CLI::App& app) {
       ->option_text("NAME");
   command->add_option("--rounding", given->rounding,
                       "nearest-even, nearest-away, toward-zero, up, down, to-odd or stochastic")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("DIRECTION");
   command->add_option("--subnormal", given->subnormal,
                       "preserve, or flush results that are subnormal to zeros of their sign")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("WORD");
   command->add_option("--overflow", given->overflow,
                       "infinity, saturate, or ieee: as the direction of rounding says")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->type_name("WORD");
   command->add_option("--seed", given->seed, "Key of stochastic rounding; the counter is the line's number")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->option_text("N");
   command->add_flag("--json", given->json, "A JSON array instead of lines");
   command->footer(
       "Examples:\n"

@@ -123,7 +123,7 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
          "take NaN, infinite and out-of-range depths as never drawn, instead of refusing them")
       ->group("Scene");
   add("--seed", "seed of whatever is random in the scene", "N",
-      std::function([o](const std::uint64_t& seed) { o->seed = seed; }))
+      std::function([o](const std::string& seed) { o->seed = parse_seed(seed, "--seed"); }))
       ->default_str(std::to_string(o->seed));
   add("--threads", "threads to use, 0 for all cores (the result is the same)", "N",
       std::function([o](const int& count) {

@@ -33,4 +33,14 @@ std::vector<double> parse_numbers(std::string_view text, const std::string& opti
   return out;
 }
 
+std::uint64_t parse_seed(std::string_view text, const std::string& option) {
+  std::uint64_t value = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error != std::errc() || end != last || text.empty())
+    throw usage_error(option + " takes a whole number from 0 to 18446744073709551615, but not '" +
+                      std::string(text) + "'");
+  return value;
+}
+
 }  // namespace bitshade

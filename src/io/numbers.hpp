@@ -1,6 +1,7 @@
 // Numbers in text, whatever the locale.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,5 +14,10 @@ namespace bitshade {
 ///          than `least` or more than `most`.
 std::vector<double> parse_numbers(std::string_view text, const std::string& option,
                                   std::size_t least, std::size_t most);
+
+/// A seed: 0 to 2^64 - 1, in decimal.
+///
+/// Failure  usage_error that names `option` for anything else; nothing wraps around.
+std::uint64_t parse_seed(std::string_view text, const std::string& option);
 
 }  // namespace bitshade

@@ -97,4 +97,7 @@ TEST_CASE("round names the line that it cannot read") {
   CHECK(round_text("1\n", "--format bfoat16").out.find("bfloat16") != std::string::npos);
   CHECK(round_text("1\n", "--format e12m3").out.find("2 <= X <= 11") != std::string::npos);
   CHECK(round_text("1\n", "--format half --rounding upp").status == 2);
+  CHECK(round_text("1\n", "--format HALF").out.find("'half'") != std::string::npos);
+  for (const char* seed : {"-1", "18446744073709551616", "1.5"})
+    CHECK(round_text("1\n", "--format half --rounding stochastic --seed=" + std::string(seed)).status == 2);
 }

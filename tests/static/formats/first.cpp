@@ -41,4 +41,5 @@ TEST_CASE("names survive a round trip, and a misspelt one finds its neighbour") 
     CHECK(name_of(parse_encoding(name).value()) == name);
   }
   CHECK(nearest_name("bfoat16") == "bfloat16");
+  CHECK(nearest_name("HALF") == "half");
 }

@@ -20,3 +20,12 @@ TEST_CASE("what is no list of finite numbers is refused with the option's name")
   CHECK_THROWS_WITH(parse_numbers("1,2", "--light", 3, 3),
                     "--light takes 3 numbers with commas between, but '1,2' has 2");
 }
+
+TEST_CASE("a seed is a whole number of 64 bits, and nothing wraps around") {
+  CHECK(bitshade::parse_seed("18446744073709551615", "--seed") == ~std::uint64_t{0});
+  CHECK(bitshade::parse_seed("0", "--seed") == 0);
+  for (const char* text : {"", "-1", "18446744073709551616", "1.5", "0x10", "1 ", "+1", "abc"}) {
+    INFO(text);
+    CHECK_THROWS_AS(bitshade::parse_seed(text, "--seed"), usage_error);
+  }
+}
