@@ -1,10 +1,14 @@
-// GLM vectors and matrices of real.
+// GLM vectors and matrices of real and interval.
 //
-// Works: construction, + - * / and comparison of vec and mat, dot, cross, length, distance, normalize, mix, clamp,
-// min, max, abs, floor, ceil, fract, mod, sqrt, inversesqrt, exp, log, pow, sin, cos, transpose, determinant, inverse.
-// Does not: vectors of exact<Q> where Q has a destructor (GLM keeps members in unions); and, since GLM 0.9.9.8 names std::floor and its like or the bits of float in the body,
-//   glm::packHalf and kin, glm::floatBitsToInt and glm::intBitsToFloat (they take float), glm::isnan and glm::isinf.
-// tests/conformance/glm.cpp holds what works, and that packHalf does not take real.
+// Works, real of IEEE formats and rules: construction, + - * / and comparison of vec and mat, dot, cross, length,
+// distance, normalize, reflect, mix, clamp, min, max, abs, floor, ceil, fract, mod, sqrt, inversesqrt, exp, log, pow,
+// sin, cos, transpose, determinant, inverse.
+// Works, interval and every other real: construction, + - * / of vec and mat; GLM's functions ask for
+// numeric_limits<T>::is_iec559, which norms, fixed point, e4m3, saturation and flushing do not fulfil.
+// Does not: vectors of exact<Q> where Q has a destructor (GLM keeps members in unions); comparison of intervals; and,
+// since GLM 0.9.9.8 names float's bits or functions in the body, glm::packHalf and kin, glm::floatBitsToInt and
+// glm::intBitsToFloat, glm::isnan and glm::isinf.
+// tests/conformance and tests/refused hold each of these.
 #pragma once
 
 #include "bitshade/arithmetic/real_limits.hpp"

@@ -1,0 +1,13 @@
+# Runs PROGRAM and compares what it prints with the comment lines after "// Prints:" at the end of SOURCE.
+file(READ ${SOURCE} text)
+string(FIND "${text}" "\n// Prints:\n" at)
+if(at EQUAL -1)
+  message(FATAL_ERROR "${SOURCE} does not say what it prints")
+endif()
+string(SUBSTRING "${text}" ${at} -1 text)
+string(REPLACE "\n// Prints:\n" "\n" text "${text}")
+string(REGEX REPLACE "\n// ?" "\n" expected "${text}")
+execute_process(COMMAND ${PROGRAM} OUTPUT_VARIABLE got RESULT_VARIABLE status)
+if(NOT status EQUAL 0 OR NOT "\n${got}" STREQUAL "${expected}")
+  message(FATAL_ERROR "exit status ${status}; expected${expected}got\n${got}")
+endif()
