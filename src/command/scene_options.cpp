@@ -134,6 +134,12 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
   return options;
 }
 
+frame load_for(const std::string& name, scene_options options, const configuration& how) {
+  options.samples = how.filtered.msaa;
+  if (options.samples > 1) options.given.insert("--msaa");
+  return load_input(name, options);
+}
+
 std::string scene_argument_help() {
   std::string names;
   for (const auto& info : known_scenes()) names += info.name + ", ";

@@ -28,8 +28,12 @@ configuration exact_twin(configuration c) {
 
 /// The part of a configuration that decides the truth: the kernel and the footprint.
 std::string kernel_of(const configuration& c) {
-  return std::to_string(c.blurred() ? c.blur_taps : 0) + "/" + shortest(c.blur_sigma) + "/" +
-         std::to_string(static_cast<int>(c.filter)) + "/" + std::to_string(c.max_anisotropy);
+  std::string text = shortest(c.blur_sigma);
+  for (const int n :
+       {c.blurred() ? c.blur_taps : 0, static_cast<int>(c.filtered.shape),
+        static_cast<int>(c.filter), c.max_anisotropy, c.filtered.msaa, c.filtered.lookups})
+    text += "/" + std::to_string(n);
+  return text;
 }
 
 /// What cells are measured against, kept while neighbouring cells share it.
@@ -129,6 +133,12 @@ std::string digest_of(const frame& input) {
   add(input.surface.texels);
   static_assert(sizeof(receiver) == 11 * 4, "padding would enter the digest");
   add(input.receivers);
+  for (const map_sample& s : input.samples) {
+    d.update_value(s.at.x);
+    d.update_value(s.at.y);
+    add(s.depth.texels);
+    add(s.surface.texels);
+  }
   return d.finish();
 }
 
@@ -149,13 +159,16 @@ std::string cell_key(const std::string& input, const configuration& c) {
 }
 
 void check_study_memory(const frame& input, const std::vector<configuration>& cells) {
-  // Exact arithmetic holds each moment of a texel in 16 bytes, twice while it is blurred.
-  std::uint64_t channels = 1;
-  for (const configuration& c : cells)
-    channels = std::max(channels, static_cast<std::uint64_t>(c.channels()));
+  // Exact arithmetic holds each moment of a texel in 16 bytes, twice while it is blurred; samples
+  // are held until they are resolved, in at most 8 bytes each.
+  std::uint64_t bytes = 1;
+  for (const configuration& c : cells) {
+    const int samples = c.filtered.msaa > 1 ? 8 * c.filtered.msaa : 0;
+    bytes = std::max(bytes, static_cast<std::uint64_t>(c.channels() * (32 + samples)));
+  }
   const auto w = static_cast<std::uint64_t>(input.depth.width);
   const auto h = static_cast<std::uint64_t>(input.depth.height);
-  check_memory(w * h * channels * 32,
+  check_memory(w * h * bytes,
                "a study of a map of " + std::to_string(w) + " x " + std::to_string(h) + " texels",
                "ask for a smaller --size");
 }

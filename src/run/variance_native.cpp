@@ -10,11 +10,9 @@ namespace {
 
 template <class T>
 void run_in(run_context& run) {
-  variance_technique<T> technique(run.how, run.storage, run.scene.depth);
-  native_engine<T, variance_technique<T>> engine(run.scene, run.how, technique, run.storage,
-                                                 run.look, run.threads, run.result);
-  run_layers(engine, run.scene, run.how, run.layers,
-             run.effects.simulates("layers without receivers"), run.result);
+  native_engine<T, variance_technique<T>> engine(
+      run, variance_technique<T>(run.how, run.storage, run.scene.depth));
+  run_layers(engine, run);
 }
 
 }  // namespace

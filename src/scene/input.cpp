@@ -62,8 +62,8 @@ frame load_input(const std::string& name, const scene_options& options) {
   }
   if (is_depth_file(name)) {
     refuse(options,
-           {"--size", "--param", "--light", "--light-position", "--light-range", "--camera",
-            "--metric", "--seed"},
+           {"--msaa", "--size", "--param", "--light", "--light-position", "--light-range",
+            "--camera", "--metric", "--seed"},
            "a captured depth map", "leave it out, the map has been made already");
     return load_captured(name, options);
   }
