@@ -45,7 +45,7 @@ void render(const options& given) {
                       std::to_string(cells.size()) +
                       ": give one technique, one format and one layer count, or use study");
   const configuration& c = cells.front();
-  const frame input = load_for(given.scene, *given.how, c);
+  const frame input = load_for(given.scene, *given.how, cells);
   const int threads = given.how->threads, w = input.view_width, h = input.view_height;
   check_study_memory(input, cells);
 

@@ -134,9 +134,13 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
   return options;
 }
 
-frame load_for(const std::string& name, scene_options options, const configuration& how) {
-  options.samples = how.filtered.msaa;
-  if (options.samples > 1) options.given.insert("--msaa");
+frame load_for(const std::string& name, scene_options options,
+               const std::vector<configuration>& cells) {
+  for (const configuration& c : cells) {
+    if (c.filtered.msaa == 1) continue;
+    options.samples.insert(c.filtered.msaa);
+    options.given.insert("--msaa");
+  }
   return load_input(name, options);
 }
 

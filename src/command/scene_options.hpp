@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bitshade/study/configuration.hpp"
 #include "scene/scene.hpp"
@@ -21,7 +22,8 @@ namespace bitshade::command {
 std::shared_ptr<scene_options> add_scene_options(CLI::App& app);
 
 /// load_input(), with the samples of a texel that configurations ask for.
-frame load_for(const std::string& name, scene_options options, const configuration& how);
+frame load_for(const std::string& name, scene_options options,
+               const std::vector<configuration>& cells);
 
 /// The text for a SCENE argument's help: the embedded scenes and the file types.
 std::string scene_argument_help();

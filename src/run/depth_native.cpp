@@ -19,7 +19,7 @@ void run_in(run_context& run) {
   const int width = scene.depth.width, height = scene.depth.height;
   const bool hard = run.how.method == technique::hard;
   std::vector<image<T>> samples;
-  for (const image<float>* map : depth_maps(scene, run.look.resolve && !hard)) {
+  for (const image<float>* map : depth_maps(scene, hard ? 1 : run.look.samples)) {
     image<T>& depth = samples.emplace_back(width, height);
     {
       const stopwatch watch(result.map_seconds);

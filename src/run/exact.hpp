@@ -143,7 +143,7 @@ class exact_engine {
 
   /// Two passes over the map; without a blur the texels are brought to the same unit.
   void blur(level_map& out) {
-    const auto samples = depth_maps(scene_, look_.resolve);
+    const auto samples = depth_maps(scene_, look_.samples);
     const int width = scene_.depth.width, height = scene_.depth.height;
     const int radius = static_cast<int>(blur_.size() / 2);
     image<first_int> across1(width, height);

@@ -17,11 +17,12 @@ constexpr float smallest_resolved_depth = 0x1p-60F;
 
 effect msaa_effect(const frame& scene, const configuration& how) {
   effect e{"msaa", true, false, ""};
+  const auto& samples = scene.samples.at(how.filtered.msaa);
   std::size_t differing = 0, tiny = 0;
   for (std::size_t i = 0; i < scene.depth.texels.size(); ++i) {
     const float centre = scene.depth.texels[i];
     const auto differs = [&](const map_sample& s) { return s.depth.texels[i] != centre; };
-    differing += std::any_of(scene.samples.begin(), scene.samples.end(), differs) ? 1 : 0;
+    differing += std::any_of(samples.begin(), samples.end(), differs) ? 1 : 0;
     tiny += centre > 0 && centre < smallest_resolved_depth ? 1 : 0;
   }
   e.needed = differing > 0 || (tiny > 0 && !how.exact());

@@ -50,7 +50,7 @@ class filtered_exact {
       : run_(run),
         technique_(technique),
         blur_(blur_of(run.how)),
-        maps_(depth_maps(run.scene, run.look.resolve)) {}
+        maps_(depth_maps(run.scene, run.look.samples)) {}
 
   /// Planes of one channel each, so that a pass needs one plane beside them.
   void generate() {

@@ -31,7 +31,7 @@ struct lookup {
   texel_filter filter = texel_filter::bilinear;
   bool mips = false;
   int max_anisotropy = 1;
-  bool resolve = false;  ///< the map is the mean of the frame's samples
+  int samples = 1;  ///< of a texel, whose mean the map is
 
   /// Whether a lookup is one bilinear or nearest fetch of level 0.
   bool plain() const { return !mips && max_anisotropy == 1; }
@@ -40,14 +40,14 @@ struct lookup {
 inline lookup lookup_of(const configuration& how, const plan& effects) {
   return {how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
           effects.simulates("mips"), effects.simulates("anisotropy") ? how.max_anisotropy : 1,
-          effects.simulates("msaa")};
+          effects.simulates("msaa") ? how.filtered.msaa : 1};
 }
 
 /// The depth maps that a texel is made of: the centres' alone, or one a sample.
-inline std::vector<const image<float>*> depth_maps(const frame& scene, bool resolve) {
-  if (!resolve) return {&scene.depth};
+inline std::vector<const image<float>*> depth_maps(const frame& scene, int samples) {
+  if (samples == 1) return {&scene.depth};
   std::vector<const image<float>*> maps;
-  for (const map_sample& s : scene.samples) maps.push_back(&s.depth);
+  for (const map_sample& s : scene.samples.at(samples)) maps.push_back(&s.depth);
   return maps;
 }
 

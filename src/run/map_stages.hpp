@@ -18,9 +18,10 @@ namespace bitshade {
 /// Shapes   fill(depth map, y, row) makes row y; pass(row kernel, out) runs a kernel over all rows
 ///          of an image and stores them.
 template <class T, class Fill, class Pass>
-image<T> resolved_texels(const frame& scene, bool resolve, int channels, Fill fill, Pass pass) {
+image<T> resolved_texels(const frame& scene, int samples_a_texel, int channels, Fill fill,
+                         Pass pass) {
   std::vector<image<T>> samples;
-  for (const image<float>* depth : depth_maps(scene, resolve)) {
+  for (const image<float>* depth : depth_maps(scene, samples_a_texel)) {
     image<T>& sample = samples.emplace_back(depth->width, depth->height, channels);
     pass([&](int y) { fill(*depth, y, sample.row(y)); }, sample);
   }

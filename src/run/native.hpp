@@ -51,7 +51,7 @@ class native_engine {
     const auto fill = [&](const image<float>& map, int y, std::span<T> row) {
       technique_.fill(map, y, row);
     };
-    image<T> texels = resolved_texels<T>(scene_, look_.resolve, channels, fill, pass);
+    image<T> texels = resolved_texels<T>(scene_, look_.samples, channels, fill, pass);
     blur_map(how_, fraction_bits_, texels, pass);
     chain_.clear();
     chain_.push_back(std::move(texels));

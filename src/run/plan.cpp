@@ -105,13 +105,12 @@ struct smallest_stored {
 smallest_stored smallest_of(const frame& scene, const configuration& how, const plan& p,
                             double smallest_normal) {
   const double weight = smallest_blur_share(how);
-  const bool resolve = how.filtered.msaa > 1;
   smallest_stored result;
   const bool squares = how.channels() > 1;
   const auto intervals = layer_intervals(p.splits, how.overlap);
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     if (p.layer_users[i] == 0) continue;
-    for (const image<float>* map : depth_maps(scene, resolve)) {
+    for (const image<float>* map : depth_maps(scene, how.filtered.msaa)) {
       for (const float depth : map->texels) {
         const double x = warp(clamp_depth(static_cast<double>(depth)), intervals[i]);
         if (x == 0) continue;
@@ -121,7 +120,7 @@ smallest_stored smallest_of(const frame& scene, const configuration& how, const 
       }
     }
   }
-  if (resolve && squares) result.value /= static_cast<double>(scene.samples.size());
+  if (squares) result.value /= how.filtered.msaa;
   // Two passes, 4x a mip level, and a margin of 2 for the rounding of each step.
   if (how.blurred() && squares) result.value *= weight * weight;
   if (how.filter == texel_filter::trilinear) {
@@ -170,7 +169,7 @@ effect subnormals_effect(const frame& scene, const configuration& how, const pla
       function ? smallest_stored{*function, 0} : smallest_of(scene, how, p, normal);
   e.needed = smallest.value < normal;
   if (smallest.texels > 0) {
-    const std::size_t maps = depth_maps(scene, how.filtered.msaa > 1).size();
+    const std::size_t maps = depth_maps(scene, how.filtered.msaa).size();
     e.evidence = count_of(
         smallest.texels, scene.depth.texels.size() * maps,
         (maps > 1 ? "samples store a subnormal " : "texels store a subnormal ") + how.format);
@@ -201,11 +200,9 @@ plan make_plan(const frame& scene, const configuration& how, int threads) {
   } catch (const std::invalid_argument& e) {
     throw usage_error(e.what());
   }
-  if (how.filtered.msaa > 1 &&
-      scene.samples.size() != static_cast<std::size_t>(how.filtered.msaa)) {
-    throw usage_error("msaa = " + std::to_string(how.filtered.msaa) + " needs as many samples of " +
-                      "each texel, but this depth map has " +
-                      std::to_string(std::max<std::size_t>(1, scene.samples.size())));
+  if (how.filtered.msaa > 1 && !scene.samples.contains(how.filtered.msaa)) {
+    throw usage_error("this depth map has one sample a texel: leave out msaa = " +
+                      std::to_string(how.filtered.msaa));
   }
   plan result;
   result.splits = splits_of(scene, how, threads);

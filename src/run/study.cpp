@@ -9,6 +9,7 @@
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "report/maps.hpp"
+#include "run/lookup.hpp"
 #include "run/pipeline.hpp"
 #include "scene/limits.hpp"
 
@@ -133,12 +134,6 @@ std::string digest_of(const frame& input) {
   add(input.surface.texels);
   static_assert(sizeof(receiver) == 11 * 4, "padding would enter the digest");
   add(input.receivers);
-  for (const map_sample& s : input.samples) {
-    d.update_value(s.at.x);
-    d.update_value(s.at.y);
-    add(s.depth.texels);
-    add(s.surface.texels);
-  }
   return d.finish();
 }
 
@@ -152,8 +147,12 @@ std::string label_of(const row& r) {
          r.format;
 }
 
-std::string cell_key(const std::string& input, const configuration& c) {
+std::string cell_key(const std::string& input, const frame& scene, const configuration& c) {
   sha256 d;
+  if (c.filtered.msaa > 1 && c.method != technique::hard) {
+    for (const image<float>* depth : depth_maps(scene, c.filtered.msaa))
+      d.update(std::as_bytes(std::span(depth->texels)));
+  }
   d.update(std::as_bytes(std::span<const char>(input + "\n" + c.key() + "\n" + program_version())));
   return d.finish().substr(0, 32);
 }
@@ -183,7 +182,7 @@ study_result run_study(const frame& input, const study_request& request, databas
 
   for (const configuration& c : request.cells) {
     bar.at(input.name + ", " + label_of(c));
-    const std::string key = cell_key(result.input, c);
+    const std::string key = cell_key(result.input, input, c);
     if (!request.verify_plan && described) {
       if (std::optional<row> stored = results.find(key)) {
         stored->scene = input.name;

@@ -52,7 +52,7 @@ void run_in(run_context& run) {
     const int shift = S - 149 + (field == 0 ? 0 : field - 1);
     return shift >= 0 ? first_int(significand) << shift : first_int(significand) >> -shift;
   };
-  const auto maps = depth_maps(scene, run.look.resolve);
+  const auto maps = depth_maps(scene, run.look.samples);
   image<first_int> sums1;
   image<second_int> sums2;
   {

@@ -104,7 +104,7 @@ void run_in(run_context& run) {
   const auto fill = [&](const image<float>& map, int y, std::span<T> row) {
     technique.fill(map, y, row);
   };
-  image<T> texels = resolved_texels<T>(run.scene, run.look.resolve, 2, fill, pass);
+  image<T> texels = resolved_texels<T>(run.scene, run.look.samples, 2, fill, pass);
   if (format.kind == family::binary) {
     run_sums<T>(run, std::move(texels), technique);
   } else if (format.width <= 16) {

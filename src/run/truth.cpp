@@ -157,8 +157,8 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
   for (const double w : blur_of(how).weights) blur.push_back(on_grid(w, 24));
   const lookup look{
       how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
-      how.filter == texel_filter::trilinear, how.max_anisotropy, how.filtered.msaa > 1};
-  const int samples = look.resolve ? static_cast<int>(scene.samples.size()) : 1;
+      how.filter == texel_filter::trilinear, how.max_anisotropy, how.filtered.msaa};
+  const int samples = look.samples;
   const int width = scene.depth.width, height = scene.depth.height;
   std::vector<double> shares(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
   for_ranges(threads, shares.size(), 512, [&](std::size_t first, std::size_t last) {
@@ -207,7 +207,7 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
 }  // namespace
 
 std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads) {
-  const auto maps = depth_maps(scene, how.filtered.msaa > 1);
+  const auto maps = depth_maps(scene, how.filtered.msaa);
   return share_of(scene, how, threads, [&](const receiver& r) {
     return [&maps, t = r.t](int x, int y, int s) {
       return maps[static_cast<std::size_t>(s)]->at(x, y) >= t;
@@ -228,9 +228,10 @@ std::vector<double> truth_geometric(const frame& scene, const configuration& how
     const double du = r.dt_du, dv = r.dt_dv;
     const double tolerance = 0x1p-24 * (16 + std::fabs(du) + std::fabs(dv));
     const double at_origin = static_cast<double>(r.t) - tolerance - du * r.u - dv * r.v;
-    const bool resolve = how.filtered.msaa > 1;
-    return [&scene, &r, du, dv, at_origin, resolve](int x, int y, int s) {
-      const map_sample* sample = resolve ? &scene.samples[static_cast<std::size_t>(s)] : nullptr;
+    const std::vector<map_sample>* const samples =
+        how.filtered.msaa > 1 ? &scene.samples.at(how.filtered.msaa) : nullptr;
+    return [&scene, &r, du, dv, at_origin, samples](int x, int y, int s) {
+      const map_sample* sample = samples ? &(*samples)[static_cast<std::size_t>(s)] : nullptr;
       const auto& surface = sample ? sample->surface : scene.surface;
       const auto& depth = sample ? sample->depth : scene.depth;
       if (!surface.texels.empty() && surface.at(x, y) == r.surface) return true;

@@ -139,13 +139,11 @@ frame build_frame(const scene& world, const scene_options& options) {
   out.depth = image<float>(options.map_size, options.map_size, 1, 1.0f);
   out.surface = image<std::uint32_t>(options.map_size, options.map_size);
   draw_map(v, {}, out.depth, out.surface, options.threads);
-  if (options.samples > 1) {
-    const map_sample empty{image<float>(options.map_size, options.map_size, 1, 1.0f),
-                           image<std::uint32_t>(options.map_size, options.map_size),
-                           {}};
-    for (const sample_position at : sample_pattern(options.samples)) {
-      map_sample& s = out.samples.emplace_back(empty);
-      s.at = at;
+  for (const int samples : options.samples) {
+    for (const sample_position at : sample_pattern(samples)) {
+      map_sample& s = out.samples[samples].emplace_back(
+          map_sample{image<float>(options.map_size, options.map_size, 1, 1.0f),
+                     image<std::uint32_t>(options.map_size, options.map_size), at});
       draw_map(v, at, s.depth, s.surface, options.threads);
     }
   }

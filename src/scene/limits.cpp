@@ -54,7 +54,8 @@ void check_sizes(const scene_options& options, std::size_t triangles) {
                       static_cast<std::uint64_t>(options.view_height);
   // Embree's hierarchy takes about 100 bytes a triangle.
   const std::uint64_t geometry = static_cast<std::uint64_t>(triangles) * 160;
-  const auto maps = static_cast<std::uint64_t>(options.samples > 1 ? 1 + options.samples : 1);
+  std::uint64_t maps = 1;
+  for (const int samples : options.samples) maps += static_cast<std::uint64_t>(samples);
   check_memory(maps * map * map * (sizeof(float) + sizeof(std::uint32_t)) + geometry,
                "a depth map of " + std::to_string(map) + " x " + std::to_string(map) + " texels",
                "ask for a smaller --size");

@@ -85,7 +85,7 @@ struct scene_options {
   std::optional<std::pair<double, double>> depth_range;  ///< --depth-range near,far
   bool mask_invalid = false;                             ///< --mask-invalid
   std::uint64_t seed = 1;
-  int samples = 1;  ///< --msaa: of each texel of the map, beside the one at its centre
+  std::set<int> samples;  ///< --msaa: numbers of samples of a texel, beside its centre
   int threads = 0;  ///< 0: all cores
 
   /// The options that the user gave, such as "--size": what cannot go together is found by them,

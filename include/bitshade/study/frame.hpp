@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,13 +43,13 @@ struct map_sample {
 ///
 /// Shapes   depth, at the texels' centres: 1 channel, binary32 in [0,1], 1 where nothing was drawn;
 ///          surface: same size, the id of what was hit (0: nothing), or empty for captured maps;
-///          samples: those of a multisampled map, in its pattern's order; else empty;
+///          samples: for each number of them that is asked for, in its pattern's order;
 ///          receivers: view_width x view_height, row-major.
 struct frame {
   std::string name;
   image<float> depth;
   image<std::uint32_t> surface;
-  std::vector<map_sample> samples;
+  std::map<int, std::vector<map_sample>> samples;
   int view_width = 0;
   int view_height = 0;
   std::vector<receiver> receivers;

@@ -29,11 +29,12 @@ using q = exact_rational;
 frame with_samples(frame scene, int count, unsigned seed) {
   std::mt19937 random(seed);
   for (const sample_position at : sample_pattern(count)) {
+    if (count == 1) break;
     map_sample s{scene.depth, scene.surface, at};
     for (float& x : s.depth.texels) {
       if (random() % 3 == 0) x = static_cast<float>(random() >> 8) * 0x1p-24F;
     }
-    scene.samples.push_back(std::move(s));
+    scene.samples[count].push_back(std::move(s));
   }
   return scene;
 }
@@ -53,7 +54,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 template <class T, class Store>
 image<T> texels_of(const frame& scene, const configuration& how, Store store) {
   std::vector<image<T>> samples;
-  for (const image<float>* map : depth_maps(scene, how.filtered.msaa > 1)) {
+  for (const image<float>* map : depth_maps(scene, how.filtered.msaa)) {
     image<T>& out = samples.emplace_back(map->width, map->height, 2);
     for (int y = 0; y < map->height; ++y) {
       warp_row<T>(map->row(y), interval{0, 1}, out.row(y), 2);
@@ -183,7 +184,7 @@ TEST_CASE("two planes under one texel: coverage by samples gives the exact light
       scene.receivers[0].surface = 1;
       for (float& x : scene.depth.texels) x = 0.75F;
       for (int s = 0; s < n; ++s) {
-        for (float& x : scene.samples[static_cast<std::size_t>(s)].depth.texels)
+        for (float& x : scene.samples.at(n)[static_cast<std::size_t>(s)].depth.texels)
           x = s < covered ? 0.25F : 0.75F;
       }
       configuration how;
@@ -207,7 +208,7 @@ TEST_CASE("two planes under one texel: coverage by samples gives the exact light
 TEST_CASE("equal samples are left out with evidence, and simulating them changes no bit") {
   auto scene = test::small_frame(16, 16, 60, 41);
   for (const sample_position at : sample_pattern(8)) {
-    scene.samples.push_back({scene.depth, scene.surface, at});
+    scene.samples[8].push_back({scene.depth, scene.surface, at});
   }
   for (const technique method :
        {technique::pcf, technique::vsm, technique::lvsm, technique::savsm, technique::evsm4,
@@ -231,7 +232,7 @@ TEST_CASE("equal samples are left out with evidence, and simulating them changes
       CHECK(same_bits(lean.visibility, run(scene, single).visibility));
     }
   }
-  scene.samples[3].depth.at(2, 2) = 0.125F;
+  scene.samples.at(8)[3].depth.at(2, 2) = 0.125F;
   configuration how;
   how.filtered.msaa = 8;
   const plan p = make_plan(scene, how);
@@ -348,7 +349,8 @@ TEST_CASE("a map without samples refuses them, and says what it has") {
   const auto scene = test::small_frame(8, 8, 4, 81);
   configuration how;
   how.filtered.msaa = 4;
-  CHECK_THROWS_WITH(make_plan(scene, how), Catch::Contains("this depth map has 1"));
+  CHECK_THROWS_WITH(make_plan(scene, how),
+                    Catch::Contains("this depth map has one sample a texel"));
   how.filtered.msaa = 3;
   CHECK_THROWS_WITH(make_plan(scene, how), Catch::Contains("1, 2, 4 or 8"));
 }
