@@ -34,12 +34,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace bitshade;
   reader in{data, size};
   const filter_model& model = presets[in.take<std::uint8_t>() % presets.size()];
-  const int bits = model.order == accumulation::lerp_codes ? 8 : 16;
-  const texel_format format = uniform_format(unorm_encoding(bits), 1);
+  constexpr encoding formats[] = {unorm_encoding(16), snorm_encoding(16), binary16::value,
+                                  bfloat16::value,    unorm_encoding(8),  unorm_encoding(24)};
+  const std::uint8_t choice = in.take<std::uint8_t>();
+  const encoding e = model.order == accumulation::lerp_codes ? unorm_encoding(8)
+                                                             : formats[choice % std::size(formats)];
+  const texel_format format = uniform_format(e, 1);
   const int w = 1 + in.take<std::uint8_t>() % 17, h = 1 + in.take<std::uint8_t>() % 17;
   sampler_state state;
-  state.u = state.v = static_cast<address>(in.take<std::uint8_t>() % 4);
-  state.mips = in.take<std::uint8_t>() % 2 == 0 ? mip_selection::none : mip_selection::linear;
+  state.u = static_cast<address>(in.take<std::uint8_t>() % 4);
+  state.v = choice % 3 == 0 ? static_cast<address>(in.take<std::uint8_t>() % 4) : state.u;
+  state.linear = choice % 5 != 0;
+  state.mips = static_cast<mip_selection>(in.take<std::uint8_t>() % 3);
   state.max_anisotropy = 1 + in.take<std::uint8_t>() % 16;
   const auto u = in.take<float>(), v = in.take<float>(), lod = in.take<float>();
   // Derivatives that ask for more texels than a test should wait for are folded back.
@@ -51,7 +57,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<coded_image> chain;
   for (int l = 0; l < mip_levels(w, h); ++l) {
     coded_image level(mip_size(w, l), mip_size(h, l), 1);
-    for (auto& t : level.texels) t = in.take<std::uint16_t>() & low_bits(bits);
+    // Depths, whatever the format: 0 to 1, which no sum of weights can take far away.
+    for (auto& t : level.texels) t = encode(e, in.take<std::uint16_t>() * (1.0 / 65535));
     chain.push_back(std::move(level));
   }
   const device_sampler sampler(model, format, chain, state);
@@ -64,6 +71,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const exact_sampler<exact_rational> exact(format, chain, state);
     const double level = std::isfinite(lod) ? lod : 0;
     if (exact.lod(u, v, level, 0) != exact.rational<float>({0, {{0, 0}}}, u, v, level, 0))
+      std::abort();
+    const probe_set probes = vulkan_probes(g, w, h, state.max_anisotropy);
+    if (exact.gradient(u, v, g, 0) != exact.rational<float>(probes, u, v, probes.lambda, 0))
       std::abort();
   }
   return 0;

@@ -24,7 +24,7 @@ struct options {
 
 void print_plan(const options& given) {
   const std::vector<configuration> cells = given.cells->cells();
-  const frame input = load_input(given.scene, *given.how);
+  const frame input = load_for(given.scene, *given.how, cells);
   std::vector<row> rows;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const configuration& c : cells) {

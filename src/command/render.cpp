@@ -73,7 +73,7 @@ void render(const options& given) {
     animate({given.scene, *given.how, c, given.out, given.frames, given.steps, given.json});
     return;
   }
-  const frame input = load_input(given.scene, *given.how);
+  const frame input = load_for(given.scene, *given.how, cells);
   const int threads = given.how->threads, w = input.view_width, h = input.view_height;
   check_study_memory(input, cells);
 

@@ -1,5 +1,7 @@
 // `bitshade sample`: what a device's sampler returns, number by number.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -11,13 +13,14 @@
 #include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/nearest.hpp"
+#include "io/numbers.hpp"
 
 namespace bitshade::command {
 namespace {
 
 struct options {
   std::string texture, name, coordinates, format, preset = "exact", wrap = "clamp",
-                                                  filter = "bilinear";
+                                                  filter = "bilinear", border;
   int max_anisotropy = 1;
 };
 
@@ -33,8 +36,10 @@ Value choose(const std::string& word, const std::string& option,
 }
 
 sampler_state state_of(const options& given) {
-  static constexpr std::pair<std::string_view, address> wraps[] = {
-      {"clamp", address::clamp}, {"repeat", address::repeat}, {"mirror", address::mirror}};
+  static constexpr std::pair<std::string_view, address> wraps[] = {{"clamp", address::clamp},
+                                                                   {"repeat", address::repeat},
+                                                                   {"mirror", address::mirror},
+                                                                   {"border", address::border}};
   enum class filter { nearest, bilinear, trilinear };
   static constexpr std::pair<std::string_view, filter> filters[] = {
       {"nearest", filter::nearest},
@@ -44,6 +49,18 @@ sampler_state state_of(const options& given) {
     throw usage_error("--max-anisotropy must be from 1 to 16");
   sampler_state state;
   state.u = state.v = choose(given.wrap, "--wrap", wraps);
+  if (!given.border.empty()) {
+    if (state.u != address::border)
+      throw usage_error("--border has no meaning without --wrap border");
+    const auto values = parse_numbers(given.border, "--border", 1, 4);
+    for (std::size_t c = 0; c < 4; ++c) {
+      // Binary32, as a sampler's border is set.
+      state.border[c] =
+          static_cast<double>(static_cast<float>(values[std::min(c, values.size() - 1)]));
+      if (!(std::fabs(state.border[c]) < HUGE_VAL))
+        throw usage_error("--border takes finite binary32 numbers, but not '" + given.border + "'");
+    }
+  }
   const filter chosen = choose(given.filter, "--filter", filters);
   state.linear = chosen != filter::nearest;
   state.mips = chosen == filter::trilinear ? mip_selection::linear : mip_selection::none;
@@ -116,7 +133,13 @@ void add_sample(CLI::App& app) {
                    "exact, d3d11, vulkan-strict, cuda, llvmpipe, llvmpipe-r8, softpipe or "
                    "swiftshader; llvmpipe means llvmpipe-r8 for 8-bit unorm, as it does there")
       ->capture_default_str();
-  command->add_option("--wrap", given->wrap, "clamp, repeat or mirror")->capture_default_str();
+  command->add_option("--wrap", given->wrap, "clamp, repeat, mirror or border")
+      ->capture_default_str();
+  command
+      ->add_option("--border", given->border,
+                   "What lies beyond with --wrap border: a number for all channels, or one each "
+                   "(default 0)")
+      ->option_text("N[,N..]");
   command
       ->add_option("--filter", given->filter,
                    "nearest, bilinear or trilinear; a chain that is missing is made as the "

@@ -137,6 +137,16 @@ std::shared_ptr<scene_options> add_scene_options(CLI::App& app) {
   return options;
 }
 
+frame load_for(const std::string& name, scene_options options,
+               const std::vector<configuration>& cells) {
+  for (const configuration& c : cells) {
+    if (c.filtered.msaa == 1) continue;
+    options.samples.insert(c.filtered.msaa);
+    options.given.insert("--msaa");
+  }
+  return load_input(name, options);
+}
+
 std::string scene_argument_help() {
   std::string names;
   for (const auto& info : known_scenes()) names += info.name + ", ";

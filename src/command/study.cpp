@@ -136,7 +136,7 @@ void study(const options& given) {
   std::vector<frame> frames;
   std::string command = "bitshade study";
   for (const std::string& name : given.scenes) {
-    frames.push_back(load_input(name, *given.scene));
+    frames.push_back(load_for(name, *given.scene, cells));
     check_study_memory(frames.back(), cells);
     command += " " + shell_quoted(name);
   }

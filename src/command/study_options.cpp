@@ -6,6 +6,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "command/filter_options.hpp"
 #include "command/format_options.hpp"
 #include "command/technique_options.hpp"
 #include "io/build.hpp"
@@ -155,31 +156,7 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
       ->capture_default_str()
       ->option_text("N")
       ->group(group);
-  app.add_option("--blur", c->blur_taps, "Taps of the separable Gaussian: odd, 0 for none; the smallest box of savsm")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
-  app.add_option("--blur-sigma", c->blur_sigma, "Its standard deviation, in texels")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
-  app.add_option_function<std::string>(
-         "--filter",
-         [c](const std::string& name) {
-           const auto at = std::find(filter_names.begin(), filter_names.end(), name);
-           if (at == filter_names.end())
-             throw usage_error("--filter: there is no filter '" + name + "'; " +
-                               suggest(name, filter_names));
-           c->filter = static_cast<texel_filter>(at - filter_names.begin());
-         },
-         "nearest, bilinear or trilinear")
-      ->default_str(std::string(filter_names[static_cast<std::size_t>(c->filter)]))
-      ->option_text("NAME")
-      ->group(group);
-  app.add_option("--anisotropy", c->max_anisotropy, "Most probes of a footprint, 1 to 16")
-      ->capture_default_str()
-      ->option_text("N")
-      ->group(group);
+  add_filter_options(app, o->common, group);
   app.add_option_function<std::string>(
          "--second-moment",
          [c](const std::string& name) {

@@ -213,6 +213,12 @@ void refuse_uncovered(const configuration& how) {
         "--lookup, --direct-index, --slope-term, --noise-floor, --bleeding-power and "
         "--second-moment");
   }
+  if (how.filtered.msaa > 1 || how.filtered.lookups > 1 ||
+      how.filtered.way != blur_way::separable || how.filtered.shape != blur_shape::gaussian) {
+    throw usage_error(
+        "certificates are derived for a separable Gaussian and one lookup a light: leave out "
+        "--msaa, --lookups, --blur-way and --blur-shape");
+  }
 }
 
 /// The largest error of a moment after the format's roundings; moments lie in [0,1].

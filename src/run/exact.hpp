@@ -7,14 +7,14 @@
 // Widths, with S the depths' fraction bits and one more (so that half a difference is an integer),
 // E and F of the mip levels and of the lookup:
 //   y            S + 1 bits in units of 2^-S
-//   first        S + 49 + E          2^-(S + 48 + E)      blur weights: two passes of 2^-24
-//   second       2S + 49 + E         2^-(2S + 48 + E)
+//   samples      S + 4               2^-(S + 3)           a mean of up to 8, so is every other
+//   texel first        S + 52 + E          2^-(S + 51 + E)      blur weights: two passes of 2^-24
+//   second       2S + 52 + E         2^-(2S + 51 + E)
 //   looked up    + F, and 5 for the sum of up to 16 probes
 //   num, den     twice the looked-up first moment's, plus 1
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -22,18 +22,13 @@
 #include <vector>
 
 #include "bitshade/arithmetic/wide.hpp"
+#include "run/engines.hpp"
 #include "run/exact_grid.hpp"
-#include "run/lookup.hpp"
+#include "run/exact_mean.hpp"
+#include "run/exact_moments.hpp"
 #include "run/parallel.hpp"
-#include "run/pipeline.hpp"
 
 namespace bitshade {
-
-/// An exact light: num / den.
-template <std::size_t Limbs>
-struct fraction {
-  wide<Limbs> num, den;
-};
 
 /// S: one more than the fraction bits of depths; General: mip levels or several probes a lookup.
 template <int S, bool General>
@@ -42,26 +37,30 @@ class exact_engine {
   static constexpr int level_bits = General ? 28 : 0;    // 14 levels of 2x2 means
   static constexpr int lookup_bits = General ? 56 : 48;  // 2 x 24 of the texel grid, 8 of the level
   static constexpr int probe_bits = General ? 5 : 0;
-  static constexpr int scale = 48 + level_bits + lookup_bits;
+  static constexpr int map_bits = exact_sample_bits + 48 + level_bits;
+  static constexpr int scale = map_bits + lookup_bits;
   static constexpr std::size_t light_limbs = limbs_for(2 * (S + 1 + scale + probe_bits) + 1);
-  using depth_int = std::conditional_t<(S < 64), std::uint64_t, wide<limbs_for(S + 1)>>;
-  using first_int = std::conditional_t<(S + 49 + level_bits <= 128), uint128,
-                                       wide<limbs_for(S + 49 + level_bits)>>;
-  using second_int = std::conditional_t<(2 * S + 49 + level_bits <= 128), uint128,
-                                        wide<limbs_for(2 * S + 49 + level_bits)>>;
+  using first_int =
+      std::conditional_t<(S + 1 + map_bits <= 128), uint128, wide<limbs_for(S + 1 + map_bits)>>;
+  using second_int = std::conditional_t<(2 * S + 1 + map_bits <= 128), uint128,
+                                        wide<limbs_for(2 * S + 1 + map_bits)>>;
+  using moments = exact_moments<S, second_int>;
+  using depth_int = typename moments::depth_int;
   using light = fraction<light_limbs>;
 
-  exact_engine(const frame& scene, const configuration& how, const lookup& look, int threads,
-               cell& times)
-      : scene_(scene), how_(how), look_(look), threads_(threads), times_(times) {
-    for (const double w : blur_of(how).weights) blur_.push_back(on_grid(w, 24));
+  explicit exact_engine(run_context& run)
+      : scene_(run.scene),
+        how_(run.how),
+        look_(run.look),
+        threads_(run.threads),
+        times_(run.result) {
+    for (const double w : blur_of(how_).weights) blur_.push_back(on_grid(w, 24));
   }
 
   void generate(const interval& layer) {
     const stopwatch watch(times_.map_seconds);
-    near_ = depth_of(static_cast<float>(layer.near));
-    width_ = depth_of(static_cast<float>(layer.far)) - near_;
-    const auto square = widened<light_limbs>(squared(width_)) << (2 * scale);
+    texels_ = moments(layer);
+    const auto square = widened<light_limbs>(moments::squared(texels_.width())) << (2 * scale);
     layer_floor_ = square < floor_ ? square : floor_;
     levels_.clear();
     levels_.emplace_back(scene_.depth.width, scene_.depth.height);
@@ -71,13 +70,12 @@ class exact_engine {
     for (int level = 1; level < count; ++level) levels_.push_back(halved(levels_.back()));
   }
 
-  template <class Take>
-  void shade(std::span<const std::uint32_t> users, Take take) {
+  template <class Use>
+  void visit(std::span<const std::uint32_t> users, Use use) {
     const stopwatch watch(times_.shade_seconds);
+    const auto light_of = [&](const receiver& r) { return light_at(r); };
     for_ranges(threads_, users.size(), 512, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        take(users[i], light_at(scene_.receivers[users[i]]));
-      }
+      for (std::size_t i = first; i < last; ++i) use(users[i], light_of);
     });
   }
 
@@ -89,24 +87,38 @@ class exact_engine {
                                                        const receiver& r, double split) const {
     using share_int = wide<limbs_for(S + 2)>;
     const double delta = on_split_grid(how_.overlap);
-    const share_int all(depth_of(static_cast<float>(2 * delta)));
-    const share_int share = share_int(depth_of(r.t)) -
-                            share_int(depth_of(static_cast<float>(std::max(0.0, split - delta)))) +
-                            share_int(depth_of(static_cast<float>(std::max(0.0, delta - split))));
+    const auto grid = [](double x) { return share_int(moments::depth_of(static_cast<float>(x))); };
+    const share_int all = grid(2 * delta);
+    const share_int share =
+        grid(r.t) - grid(std::max(0.0, split - delta)) + grid(std::max(0.0, delta - split));
     const auto den = near.den * far.den;
     return {near.num * far.den * (all - share) + far.num * near.den * share, den * all};
   }
 
   template <std::size_t Limbs>
   double finished(const fraction<Limbs>& p) const {
-    const auto alpha = on_grid(on_split_grid(how_.bleeding_reduction), 24);
-    if (alpha == 0) return quotient_to_double(p.num, p.den);
-    const auto one = std::uint64_t{1} << 24;
-    const auto lit = p.num * wide<1>(one), lost = p.den * wide<1>(alpha);
-    return lit <= lost ? 0.0 : quotient_to_double(lit - lost, p.den * wide<1>(one - alpha));
+    if (how_.bleeding_reduction == 0) return quotient_to_double(p.num, p.den);
+    const auto q = reduced(p);
+    return quotient_to_double(q.num, q.den);
+  }
+  template <std::size_t Limbs>
+  double mean(std::span<const fraction<Limbs>> all) const {
+    if (how_.bleeding_reduction == 0) return mean_of(all);
+    std::vector<fraction<Limbs + 1>> less;
+    for (const auto& p : all) less.push_back(reduced(p));
+    return mean_of(std::span<const fraction<Limbs + 1>>(less));
   }
 
  private:
+  /// (p - alpha) / (1 - alpha), or 0.
+  template <std::size_t Limbs>
+  fraction<Limbs + 1> reduced(const fraction<Limbs>& p) const {
+    const auto alpha = on_grid(on_split_grid(how_.bleeding_reduction), 24);
+    const auto one = std::uint64_t{1} << 24;
+    const auto lit = p.num * wide<1>(one), lost = p.den * wide<1>(alpha);
+    const auto den = p.den * wide<1>(one - alpha);
+    return {lit <= lost ? wide<Limbs + 1>{} : lit - lost, den};
+  }
   struct level_map {
     level_map(int w, int h) : first(w, h), second(w, h) {}
     image<first_int> first;
@@ -129,72 +141,17 @@ class exact_engine {
     }
   }
 
-  /// x * 2^S; binary32 holds every split and depth, and S bits hold their fractions.
-  static depth_int depth_of(float x) {
-    if constexpr (S < 64) {
-      return on_grid(static_cast<double>(x), S);
-    } else {
-      const auto bits = std::bit_cast<std::uint32_t>(x);
-      const std::uint32_t field = bits >> 23 & 0xff;
-      const std::uint64_t significand = (bits & 0x7fffff) | (field == 0 ? 0 : 0x800000);
-      return depth_int(significand) << (S - 149 + (field == 0 ? 0 : static_cast<int>(field) - 1));
-    }
-  }
-  /// The layer's own depth, in units of 2^-S.
-  depth_int inside(float x) const {
-    const depth_int depth = depth_of(x > 0 ? (x < 1 ? x : 1.0F) : 0.0F);
-    if (depth < near_) return depth_int(std::uint64_t{0});
-    const depth_int above = depth - near_;
-    return above < width_ ? above : width_;
-  }
-  static second_int squared(const depth_int& y) {
-    if constexpr (std::is_same_v<second_int, uint128>) {
-      return static_cast<uint128>(y) * y;
-    } else if constexpr (S < 64) {
-      return second_int(static_cast<uint128>(y) * y);
-    } else {
-      return narrowed<std::tuple_size_v<decltype(second_int::limb)>>(y * y);
-    }
-  }
-
-  /// The square of half of limited_slope(): depths are even, since S is a bit more than they need.
-  static second_int half_slope_squared(const depth_int& before, const depth_int& here,
-                                       const depth_int& after) {
-    if (before < here && here < after) {
-      return squared(std::min<depth_int>(here - before, after - here) >> 1);
-    }
-    if (before > here && here > after) {
-      return squared(std::min<depth_int>(before - here, here - after) >> 1);
-    }
-    return second_int{};
-  }
-  /// Equation (12) on a row of squares.
-  void add_slope(int y, const std::vector<depth_int>& row, std::vector<second_int>& squares) const {
-    const image<float>& depth = scene_.depth;
-    const auto above = depth.row(std::max(y - 1, 0));
-    const auto below = depth.row(std::min(y + 1, depth.height - 1));
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      const auto left = x == 0 ? x : x - 1, right = x + 1 == row.size() ? x : x + 1;
-      squares[x] += half_slope_squared(row[left], row[x], row[right]);
-      squares[x] += half_slope_squared(inside(above[x]), row[x], inside(below[x]));
-    }
-  }
-
   /// Two passes over the map; without a blur the texels are brought to the same unit.
   void blur(level_map& out) {
-    const image<float>& depth = scene_.depth;
-    const int width = depth.width, height = depth.height;
+    const auto samples = depth_maps(scene_, look_.samples);
+    const int width = scene_.depth.width, height = scene_.depth.height;
     const int radius = static_cast<int>(blur_.size() / 2);
     image<first_int> across1(width, height);
     image<second_int> across2(width, height);
     for_rows(threads_, height, [&](int y) {
       std::vector<depth_int> row(static_cast<std::size_t>(width));
       std::vector<second_int> squares(row.size());
-      for (std::size_t x = 0; x < row.size(); ++x) {
-        row[x] = inside(depth.row(y)[x]);
-        squares[x] = squared(row[x]);
-      }
-      if (how_.slope_term) add_slope(y, row, squares);
+      texels_.row(samples, y, how_.slope_term, row, squares);
       for (int x = 0; x < width; ++x) {
         first_int sum1{};
         second_int sum2{};
@@ -306,7 +263,7 @@ class exact_engine {
     // Everything times the number of probes, whose mean this is.
     const auto n = wide<1>(count);
     const auto by = [&](const wide<light_limbs>& a) { return narrowed<light_limbs>(a * n); };
-    const auto t = by(widened<light_limbs>(inside(r.t)) << scale);
+    const auto t = by(widened<light_limbs>(texels_.inside(r.t)) << scale);
     if (t <= total.first)
       return {wide<light_limbs>(std::uint64_t{1}), wide<light_limbs>(std::uint64_t{1})};
     const auto d = t - total.first;
@@ -333,7 +290,7 @@ class exact_engine {
   std::vector<std::uint64_t> blur_;
   const wide<light_limbs> floor_ = floor_of(how_.min_variance);
   wide<light_limbs> layer_floor_;
-  depth_int near_{}, width_{};
+  moments texels_;
   std::vector<level_map> levels_;
 };
 

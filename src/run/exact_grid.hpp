@@ -30,6 +30,13 @@ inline int depth_bits_of(const frame& scene) {
   for (const float x : scene.depth.texels) {
     if (beyond(x)) return any_depth_bits;
   }
+  for (const auto& [count, samples] : scene.samples) {
+    for (const map_sample& s : samples) {
+      for (const float x : s.depth.texels) {
+        if (beyond(x)) return any_depth_bits;
+      }
+    }
+  }
   for (const receiver& r : scene.receivers) {
     if (r.surface != 0 && beyond(r.t)) return any_depth_bits;
   }

@@ -71,9 +71,8 @@ class esm_technique {
 
 template <class T, class Technique>
 void run_technique(run_context& run, const Technique& technique) {
-  native_engine<T, Technique> engine(run.scene, run.how, technique, run.storage, run.look,
-                                     run.threads, run.result);
-  run_layers(engine, run.scene, run.how, run.layers, false, run.result);
+  native_engine<T, Technique> engine(run, technique);
+  run_layers(engine, run);
 }
 
 template <class T>

@@ -47,7 +47,10 @@ template <class Technique>
 class filtered_exact {
  public:
   filtered_exact(run_context& run, const Technique& technique)
-      : run_(run), technique_(technique), blur_(blur_of(run.how)) {}
+      : run_(run),
+        technique_(technique),
+        blur_(blur_of(run.how)),
+        maps_(depth_maps(run.scene, run.look.samples)) {}
 
   /// Planes of one channel each, so that a pass needs one plane beside them.
   void generate() {
@@ -58,12 +61,15 @@ class filtered_exact {
     chains_.assign(channels, {});
     for (auto& chain : chains_) chain.emplace_back(depth.width, depth.height);
     for_rows(run_.threads, depth.height, [&](int y) {
-      std::vector<number> texel(channels);
+      std::vector<number> texel(channels), sum(channels);
       for (int x = 0; x < depth.width; ++x) {
-        if (x == 0 || depth.at(x, y) != depth.at(x - 1, y)) {
-          technique_.template texel<number>(number(clamp_depth(depth.at(x, y))), texel);
+        const auto same = [&](const image<float>* map) {
+          return map->at(x, y) == map->at(x - 1, y);
+        };
+        if (x == 0 || !std::all_of(maps_.begin(), maps_.end(), same)) {
+          texel_at<first_limbs>(x, y, texel, sum);
         }
-        for (std::size_t c = 0; c < channels; ++c) chains_[c].front().at(x, y) = texel[c];
+        for (std::size_t c = 0; c < channels; ++c) chains_[c].front().at(x, y) = sum[c];
       }
     });
     image<number> across(depth.width, depth.height);
@@ -120,18 +126,53 @@ class filtered_exact {
   };
 
   certified_light light_of(const receiver& r) const {
-    const exact_lookup lookup = lookup_of(r);
+    const image<float>& depth = run_.scene.depth;
+    std::vector<exact_lookup> lookups;
+    each_lookup(r, run_.how.filtered.lookups, depth.width, depth.height,
+                [&](const receiver& there) { lookups.push_back(lookup_of(there)); });
     const auto planes = [&](const exact_texel& at, std::span<ball<first_limbs>> out) {
       for (std::size_t c = 0; c < out.size(); ++c) {
         out[c] = chains_[c][static_cast<std::size_t>(at.level)].at(at.x, at.y);
       }
     };
-    if (const auto p = decided(light<first_limbs>(lookup, r.t, planes))) return {*p, true};
-    if (const auto p = flat_light(lookup, r.t)) return {*p, true};
-    if (const auto p = decided(refined<second_limbs>(lookup, r.t))) return {*p, true};
-    const auto best = refined<last_limbs>(lookup, r.t);
+    const auto from_planes = [&](const exact_lookup& at) {
+      return light<first_limbs>(at, r.t, planes);
+    };
+    if (const auto p = decided(mean_light<first_limbs>(lookups, from_planes))) return {*p, true};
+    const auto second = [&](const exact_lookup& at) {
+      return flat_or_refined<second_limbs>(at, r.t);
+    };
+    if (const auto p = decided(mean_light<second_limbs>(lookups, second))) return {*p, true};
+    const auto last = [&](const exact_lookup& at) { return flat_or_refined<last_limbs>(at, r.t); };
+    const auto best = mean_light<last_limbs>(lookups, last);
     const auto p = decided(best);
     return {p ? *p : best.nearest(), p.has_value()};
+  }
+
+  template <std::size_t Limbs, class Light>
+  static ball<Limbs> mean_light(const std::vector<exact_lookup>& lookups, Light light) {
+    ball<Limbs> sum = light(lookups.front());
+    if (lookups.size() == 1) return sum;
+    for (std::size_t i = 1; i < lookups.size(); ++i) sum += light(lookups[i]);
+    return sum / ball<Limbs>(static_cast<int>(lookups.size()));
+  }
+  template <std::size_t Limbs>
+  ball<Limbs> flat_or_refined(const exact_lookup& lookup, float t) const {
+    if (const auto p = flat_light(lookup, t)) return ball<Limbs>(*p);
+    return refined<Limbs>(lookup, t);
+  }
+
+  /// What texel (x, y) stores, the mean of its samples; `one` is room for a sample.
+  template <std::size_t Limbs>
+  void texel_at(int x, int y, std::vector<ball<Limbs>>& one, std::vector<ball<Limbs>>& sum) const {
+    using number = ball<Limbs>;
+    const number share(1.0 / static_cast<double>(maps_.size()));
+    for (std::size_t s = 0; s < maps_.size(); ++s) {
+      technique_.template texel<number>(number(clamp_depth(maps_[s]->at(x, y))), one);
+      for (std::size_t c = 0; c < sum.size(); ++c) {
+        sum[c] = s == 0 ? one[c] * share : sum[c] + one[c] * share;
+      }
+    }
   }
 
   exact_lookup lookup_of(const receiver& r) const {
@@ -208,13 +249,13 @@ class filtered_exact {
     if (base_texels(lookup) > most_refined_texels) return number::anything();
     std::map<place, std::vector<number>> stored, filtered;
     const auto texel = [&](int x, int y) -> const std::vector<number>& {
-      const image<float>& depth = run_.scene.depth;
-      x = wrap(x, depth.width, map_address);
-      y = wrap(y, depth.height, map_address);
+      x = wrap(x, run_.scene.depth.width, map_address);
+      y = wrap(y, run_.scene.depth.height, map_address);
       auto& values = stored[{0, x, y}];
       if (values.empty()) {
         values.resize(technique_.channels());
-        technique_.template texel<number>(number(clamp_depth(depth.at(x, y))), values);
+        std::vector<number> one(values.size());
+        texel_at<Limbs>(x, y, one, values);
       }
       return values;
     };
@@ -268,14 +309,17 @@ class filtered_exact {
       const image<float>& depth = run_.scene.depth;
       const int radius = blur_.radius();
       const exact_texel& any = lookup.texels.front();
-      const float x0 = clamp_depth(depth.at(std::min(any.x << any.level, depth.width - 1),
-                                            std::min(any.y << any.level, depth.height - 1)));
+      const float x0 =
+          clamp_depth(maps_.front()->at(std::min(any.x << any.level, depth.width - 1),
+                                        std::min(any.y << any.level, depth.height - 1)));
       for (const exact_texel& at : lookup.texels) {
         const auto from = [&](int i) { return (i << at.level) - radius; };
         const auto to = [&](int i) { return ((i + 1) << at.level) + radius; };
         for (int y = std::max(0, from(at.y)); y < std::min(depth.height, to(at.y)); ++y) {
           for (int x = std::max(0, from(at.x)); x < std::min(depth.width, to(at.x)); ++x) {
-            if (clamp_depth(depth.at(x, y)) != x0) return std::nullopt;
+            for (const image<float>* map : maps_) {
+              if (clamp_depth(map->at(x, y)) != x0) return std::nullopt;
+            }
           }
         }
       }
@@ -288,6 +332,7 @@ class filtered_exact {
   run_context& run_;
   const Technique& technique_;
   const kernel blur_;
+  const std::vector<const image<float>*> maps_;
   std::vector<std::vector<image<ball<first_limbs>>>> chains_;
 };
 

@@ -1,6 +1,8 @@
 // How a run's receivers read the map, decided once from the configuration and the plan.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +31,7 @@ struct lookup {
   texel_filter filter = texel_filter::bilinear;
   bool mips = false;
   int max_anisotropy = 1;
+  int samples = 1;  ///< of a texel, whose mean the map is
 
   /// Whether a lookup is one bilinear or nearest fetch of level 0.
   bool plain() const { return !mips && max_anisotropy == 1; }
@@ -36,7 +39,35 @@ struct lookup {
 
 inline lookup lookup_of(const configuration& how, const plan& effects) {
   return {how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
-          effects.simulates("mips"), effects.simulates("anisotropy") ? how.max_anisotropy : 1};
+          effects.simulates("mips"), effects.simulates("anisotropy") ? how.max_anisotropy : 1,
+          effects.simulates("msaa") ? how.filtered.msaa : 1};
+}
+
+/// The depth maps that a texel is made of: the centres' alone, or one a sample.
+inline std::vector<const image<float>*> depth_maps(const frame& scene, int samples) {
+  if (samples == 1) return {&scene.depth};
+  std::vector<const image<float>*> maps;
+  for (const map_sample& s : scene.samples.at(samples)) maps.push_back(&s.depth);
+  return maps;
+}
+
+/// Calls use(receiver) for each of n x n lookups, row by row: the receiver itself, moved by whole
+/// texels of level 0 on the grid of probe offsets, and no farther than the map's edge.
+template <class Use>
+void each_lookup(const receiver& r, int n, int width, int height, Use use) {
+  if (n == 1) return use(r);
+  const auto moved = [](float at, int texels, int size) {
+    const double step = std::round(texels / (size * probe_grid)) * probe_grid;
+    return static_cast<float>(std::clamp(static_cast<double>(at) + step, 0.0, 1.0));
+  };
+  for (int j = -n / 2; j <= n / 2; ++j) {
+    for (int i = -n / 2; i <= n / 2; ++i) {
+      receiver there = r;
+      there.u = moved(r.u, i, width);
+      there.v = moved(r.v, j, height);
+      use(there);
+    }
+  }
 }
 
 /// The texel centres' neighbours and weights of a plain lookup; nearest reads one texel.
@@ -55,7 +86,9 @@ inline probe_set probes_of(const receiver& r, int width, int height, int max_ani
 }
 
 inline kernel blur_of(const configuration& how) {
-  return gaussian_kernel(how.blurred() ? how.blur_taps : 1, how.blur_sigma);
+  const int taps = how.blurred() ? how.blur_taps : 1;
+  return how.filtered.shape == blur_shape::box ? box_kernel(taps)
+                                               : gaussian_kernel(taps, how.blur_sigma);
 }
 
 inline bool has_receiver(const receiver& r) { return r.surface != 0; }

@@ -10,9 +10,9 @@
 #include "bitshade/shadow/chebyshev.hpp"
 #include "bitshade/shadow/layers.hpp"
 #include "bitshade/shadow/moments.hpp"
-#include "bitshade/texture/blur.hpp"
 #include "bitshade/texture/trilinear.hpp"
-#include "run/lookup.hpp"
+#include "run/engines.hpp"
+#include "run/map_stages.hpp"
 #include "run/parallel.hpp"
 #include "run/pipeline.hpp"
 #include "run/storage.hpp"
@@ -31,29 +31,28 @@ class native_engine {
  public:
   using light = T;
 
-  native_engine(const frame& scene, const configuration& how, Technique technique,
-                const storage_format& storage, const lookup& look, int threads, cell& times)
-      : scene_(scene),
-        how_(how),
+  native_engine(run_context& run, Technique technique)
+      : scene_(run.scene),
+        how_(run.how),
         technique_(std::move(technique)),
-        storage_(storage),
-        look_(look),
-        blur_(blur_of(how)),
-        threads_(threads),
-        times_(times) {}
+        storage_(run.storage),
+        look_(run.look),
+        fraction_bits_(run.effects.simulates("blur fractions") ? run.how.filtered.fraction_bits
+                                                               : 0),
+        threads_(run.threads),
+        times_(run.result) {}
 
-  /// Depth map -> texels -> store -> blur, stored between passes -> mips.
+  /// Depth map or samples -> texels -> store -> resolve -> blur, stored between passes -> mips.
   void generate(const interval& layer) {
     technique_.begin(layer);
     const image<float>& depth = scene_.depth;
     const int channels = technique_.channels();
-    image<T> texels(depth.width, depth.height, channels);
-    map_pass([&](int y) { technique_.fill(depth, y, texels.row(y)); }, texels);
-    if (blur_.weights.size() > 1) {
-      image<T> across(depth.width, depth.height, channels);
-      map_pass([&](int y) { blur_row_x<T>(texels, blur_, map_address, y, across.row(y)); }, across);
-      map_pass([&](int y) { blur_row_y<T>(across, blur_, map_address, y, texels.row(y)); }, texels);
-    }
+    const auto pass = [&](auto row, image<T>& out) { map_pass(row, out); };
+    const auto fill = [&](const image<float>& map, int y, std::span<T> row) {
+      technique_.fill(map, y, row);
+    };
+    image<T> texels = resolved_texels<T>(scene_, look_.samples, channels, fill, pass);
+    blur_map(how_, fraction_bits_, texels, pass);
     chain_.clear();
     chain_.push_back(std::move(texels));
     if (look_.mips) {
@@ -67,18 +66,18 @@ class native_engine {
     }
   }
 
-  /// Calls take(receiver, light) for each user of the layer generated last.
-  template <class Take>
-  void shade(std::span<const std::uint32_t> users, Take take) {
+  /// Calls use(user, light_of) for each user; light_of(receiver) is its light in the layer
+  /// generated last.
+  template <class Use>
+  void visit(std::span<const std::uint32_t> users, Use use) {
     const stopwatch watch(times_.shade_seconds);
     for_ranges(threads_, users.size(), 2048, [&](std::size_t first, std::size_t last) {
       std::vector<T> values(static_cast<std::size_t>(technique_.channels()));
-      for (std::size_t i = first; i < last; ++i) {
-        const receiver& r = scene_.receivers[users[i]];
+      const auto light_of = [&](const receiver& r) {
         filter(r, values);
-        take(users[i],
-             technique_.light(std::span<const T>(values), clamp_depth(static_cast<T>(r.t))));
-      }
+        return technique_.light(std::span<const T>(values), clamp_depth(static_cast<T>(r.t)));
+      };
+      for (std::size_t i = first; i < last; ++i) use(users[i], light_of);
     });
   }
 
@@ -87,15 +86,21 @@ class native_engine {
   light blended(const light& near, const light& far, const receiver& r, double split) const {
     return lerp(near, far, transition_share(clamp_depth(static_cast<T>(r.t)), split, how_.overlap));
   }
-  double finished(const light& p) const {
-    if (how_.bleeding_reduction == 0) return static_cast<double>(p);
-    return static_cast<double>(
-        reduce_bleeding(p, static_cast<T>(on_split_grid(how_.bleeding_reduction))));
+  double finished(const light& p) const { return static_cast<double>(reduced(p)); }
+  /// The mean of finished lights, summed in T from the first to the last.
+  double mean(std::span<const light> all) const {
+    T sum = reduced(all.front());
+    for (const light& p : all.subspan(1)) sum = sum + reduced(p);
+    return static_cast<double>(sum / static_cast<T>(static_cast<int>(all.size())));
   }
 
   const image<T>& texels() const { return chain_.front(); }
 
  private:
+  T reduced(const light& p) const {
+    if (how_.bleeding_reduction == 0) return p;
+    return reduce_bleeding(p, static_cast<T>(on_split_grid(how_.bleeding_reduction)));
+  }
   void filter(const receiver& r, std::span<T> values) const {
     const T u = static_cast<T>(r.u), v = static_cast<T>(r.v);
     const image<T>& base = chain_.front();
@@ -130,7 +135,7 @@ class native_engine {
   Technique technique_;
   const storage_format& storage_;
   const lookup look_;
-  const kernel blur_;
+  const int fraction_bits_;
   const int threads_;
   cell& times_;
   std::vector<image<T>> chain_;

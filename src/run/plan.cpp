@@ -6,8 +6,8 @@
 #include "bitshade/formats/limits.hpp"
 #include "bitshade/shadow/exponential.hpp"
 #include "bitshade/shadow/moments.hpp"
-#include "bitshade/texture/gaussian.hpp"
 #include "io/error.hpp"
+#include "run/filter_plan.hpp"
 #include "run/lookup.hpp"
 #include "run/parallel.hpp"
 #include "run/pipeline.hpp"
@@ -105,23 +105,23 @@ struct smallest_stored {
 
 smallest_stored smallest_of(const frame& scene, const configuration& how, const plan& p,
                             double smallest_normal) {
-  double weight = 1;
-  for (const double w : blur_of(how).weights) {
-    if (w > 0) weight = std::min(weight, w);
-  }
+  const double weight = smallest_blur_share(how);
   smallest_stored result;
   const bool squares = how.channels() > 1;
   const auto intervals = layer_intervals(p.splits, how.overlap);
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     if (p.layer_users[i] == 0) continue;
-    for (const float depth : scene.depth.texels) {
-      const double x = warp(clamp_depth(static_cast<double>(depth)), intervals[i]);
-      if (x == 0) continue;
-      const double stored = squares ? x * x : x;
-      result.value = std::min(result.value, stored);
-      result.texels += stored < smallest_normal ? 1 : 0;
+    for (const image<float>* map : depth_maps(scene, how.filtered.msaa)) {
+      for (const float depth : map->texels) {
+        const double x = warp(clamp_depth(static_cast<double>(depth)), intervals[i]);
+        if (x == 0) continue;
+        const double stored = squares ? x * x : x;
+        result.value = std::min(result.value, stored);
+        result.texels += stored < smallest_normal ? 1 : 0;
+      }
     }
   }
+  if (squares) result.value /= how.filtered.msaa;
   // Two passes, 4x a mip level, and a margin of 2 for the rounding of each step.
   if (how.blurred() && squares) result.value *= weight * weight;
   if (how.filter == texel_filter::trilinear) {
@@ -171,8 +171,10 @@ effect subnormals_effect(const frame& scene, const configuration& how, const pla
       function ? smallest_stored{*function, 0} : smallest_of(scene, how, p, normal);
   e.needed = smallest.value < normal;
   if (smallest.texels > 0) {
-    e.evidence = count_of(smallest.texels, scene.depth.texels.size(),
-                          "texels store a subnormal " + how.format);
+    const std::size_t maps = depth_maps(scene, how.filtered.msaa).size();
+    e.evidence = count_of(
+        smallest.texels, scene.depth.texels.size() * maps,
+        (maps > 1 ? "samples store a subnormal " : "texels store a subnormal ") + how.format);
   } else if (e.needed) {
     e.evidence = "filtering may leave " + brief(smallest.value) + ", under the smallest normal " +
                  brief(normal);
@@ -200,6 +202,10 @@ plan make_plan(const frame& scene, const configuration& how, int threads) {
   } catch (const std::invalid_argument& e) {
     throw usage_error(e.what());
   }
+  if (how.filtered.msaa > 1 && !scene.samples.contains(how.filtered.msaa)) {
+    throw usage_error("this depth map has one sample a texel: leave out msaa = " +
+                      std::to_string(how.filtered.msaa));
+  }
   plan result;
   auto found = splits_of(scene, how, threads);
   result.splits = std::move(found.splits);
@@ -220,6 +226,7 @@ plan make_plan(const frame& scene, const configuration& how, int threads) {
                     anisotropy_effect(how, seen),
                     subnormals_effect(scene, how, result),
                     empty_layers_effect(result)};
+  for (effect& e : filter_effects(scene, how)) result.effects.push_back(std::move(e));
   return result;
 }
 

@@ -18,6 +18,7 @@ std::vector<double> searched_splits(const frame& scene, const configuration& how
   frame some;
   some.depth = scene.depth;
   some.surface = scene.surface;
+  some.samples = scene.samples;
   for (std::size_t i = 0; i < scene.receivers.size(); i += 16) {
     some.receivers.push_back(scene.receivers[i]);
   }

@@ -9,6 +9,7 @@
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "report/maps.hpp"
+#include "run/lookup.hpp"
 #include "run/pipeline.hpp"
 #include "scene/limits.hpp"
 
@@ -28,8 +29,12 @@ configuration exact_twin(configuration c) {
 
 /// The part of a configuration that decides the truth: the kernel and the footprint.
 std::string kernel_of(const configuration& c) {
-  return std::to_string(c.blurred() ? c.blur_taps : 0) + "/" + shortest(c.blur_sigma) + "/" +
-         std::to_string(static_cast<int>(c.filter)) + "/" + std::to_string(c.max_anisotropy);
+  std::string text = shortest(c.blur_sigma);
+  for (const int n :
+       {c.blurred() ? c.blur_taps : 0, static_cast<int>(c.filtered.shape),
+        static_cast<int>(c.filter), c.max_anisotropy, c.filtered.msaa, c.filtered.lookups})
+    text += "/" + std::to_string(n);
+  return text;
 }
 
 /// What cells are measured against, kept while neighbouring cells share it.
@@ -142,20 +147,27 @@ std::string label_of(const row& r) {
          r.format;
 }
 
-std::string cell_key(const std::string& input, const configuration& c) {
+std::string cell_key(const std::string& input, const frame& scene, const configuration& c) {
   sha256 d;
+  if (c.filtered.msaa > 1 && c.method != technique::hard) {
+    for (const image<float>* depth : depth_maps(scene, c.filtered.msaa))
+      d.update(std::as_bytes(std::span(depth->texels)));
+  }
   d.update(std::as_bytes(std::span<const char>(input + "\n" + c.key() + "\n" + program_version())));
   return d.finish().substr(0, 32);
 }
 
 void check_study_memory(const frame& input, const std::vector<configuration>& cells) {
-  // Exact arithmetic holds each moment of a texel in 16 bytes, twice while it is blurred.
-  std::uint64_t channels = 1;
-  for (const configuration& c : cells)
-    channels = std::max(channels, static_cast<std::uint64_t>(c.channels()));
+  // Exact arithmetic holds each moment of a texel in 16 bytes, twice while it is blurred; samples
+  // are held until they are resolved, in at most 8 bytes each.
+  std::uint64_t bytes = 1;
+  for (const configuration& c : cells) {
+    const int samples = c.filtered.msaa > 1 ? 8 * c.filtered.msaa : 0;
+    bytes = std::max(bytes, static_cast<std::uint64_t>(c.channels() * (32 + samples)));
+  }
   const auto w = static_cast<std::uint64_t>(input.depth.width);
   const auto h = static_cast<std::uint64_t>(input.depth.height);
-  check_memory(w * h * channels * 32,
+  check_memory(w * h * bytes,
                "a study of a map of " + std::to_string(w) + " x " + std::to_string(h) + " texels",
                "ask for a smaller --size");
 }
@@ -170,7 +182,7 @@ study_result run_study(const frame& input, const study_request& request, databas
 
   for (const configuration& c : request.cells) {
     bar.at(input.name + ", " + label_of(c));
-    const std::string key = cell_key(result.input, c);
+    const std::string key = cell_key(result.input, input, c);
     if (!request.verify_plan && described) {
       if (std::optional<row> stored = results.find(key)) {
         stored->scene = input.name;

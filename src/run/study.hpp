@@ -44,8 +44,9 @@ std::string digest_of(const frame& input);
 std::string label_of(const configuration& c);
 std::string label_of(const row& r);
 
-/// The identity of a cell: input, configuration and program.
-std::string cell_key(const std::string& input, const configuration& c);
+/// The identity of a cell: input (its digest, and the samples that the cell reads), configuration
+/// and program.
+std::string cell_key(const std::string& input, const frame& scene, const configuration& c);
 
 /// Refuses a study that would need more memory than the machine has, before it starts.
 /// Failure  usage_error with what it would take, and the cure.

@@ -31,18 +31,18 @@ T sum_over(const image<T>& sums, const texel_box& box) {
          (sums.at(box.x1, box.y0) + sums.at(box.x0, box.y1));
 }
 
-/// Integers of proven width: depths of S fraction bits, maps of up to 2^28 texels, boxes of 2^16.
+/// Integers of proven width: depths of S fraction bits, maps of up to 2^31 samples, boxes of 2^19.
 ///
-/// With n texels in a box, everything is taken n times (the variance n^2 times):
+/// With n samples in a box, everything is taken n times (the variance n^2 times):
 ///   d = n t - sum x,  v = n sum x^2 - (sum x)^2,  floor n^2 sigma_min^2, all scaled by 2^scale
 /// so that the floor is an integer, too.
 template <int S>
 void run_in(run_context& run) {
   constexpr int scale =
       192;  // 1e-60, the smallest floor, is a multiple of 2^-252 <= 2^-(2S + scale)
-  using first_int = wide<limbs_for(S + 1 + 28)>;
-  using second_int = wide<limbs_for(2 * S + 1 + 28)>;
-  using light_int = wide<limbs_for(2 * (S + 1 + 16) + scale + 1)>;
+  using first_int = wide<limbs_for(S + 1 + 31)>;
+  using second_int = wide<limbs_for(2 * S + 1 + 31)>;
+  using light_int = wide<limbs_for(2 * (S + 1 + 19) + scale + 1)>;
   const frame& scene = run.scene;
   const int width = scene.depth.width, height = scene.depth.height;
   const auto depth_of = [](float x) {
@@ -52,6 +52,7 @@ void run_in(run_context& run) {
     const int shift = S - 149 + (field == 0 ? 0 : field - 1);
     return shift >= 0 ? first_int(significand) << shift : first_int(significand) >> -shift;
   };
+  const auto maps = depth_maps(scene, run.look.samples);
   image<first_int> sums1;
   image<second_int> sums2;
   {
@@ -60,16 +61,18 @@ void run_in(run_context& run) {
     image<second_int> squares(width, height);
     for_rows(run.threads, height, [&](int y) {
       for (int i = 0; i < width; ++i) {
-        const auto depth = depth_of(scene.depth.at(i, y));
-        x.at(i, y) = depth;
-        squares.at(i, y) = narrowed<limbs_for(2 * S + 1 + 28)>(depth * depth);
+        for (const image<float>* map : maps) {
+          const auto depth = depth_of(map->at(i, y));
+          x.at(i, y) += depth;
+          squares.at(i, y) += narrowed<limbs_for(2 * S + 1 + 31)>(depth * depth);
+        }
       }
     });
     sums1 = running_sums(x);
     sums2 = running_sums(squares);
   }
 
-  constexpr auto limbs = limbs_for(2 * (S + 1 + 16) + scale + 1);
+  constexpr auto limbs = limbs_for(2 * (S + 1 + 19) + scale + 1);
   light_int floor;
   if (run.how.min_variance > 0) {
     const auto bits = std::bit_cast<std::uint64_t>(run.how.min_variance);
@@ -84,7 +87,7 @@ void run_in(run_context& run) {
       const receiver& r = scene.receivers[i];
       if (!has_receiver(r)) continue;
       const auto box = box_of(r, width, height, smallest_box(run.how));
-      const wide<1> n(static_cast<std::uint64_t>(box.area()));
+      const wide<1> n(static_cast<std::uint64_t>(box.area()) * maps.size());
       const light_int sum1 = narrowed<limbs>(sum_over(sums1, box));
       const light_int sum2 = narrowed<limbs>(sum_over(sums2, box));
       const light_int t = narrowed<limbs>(narrowed<limbs>(depth_of(r.t)) * n);

@@ -7,6 +7,7 @@
 #include "bitshade/texture/sat.hpp"
 #include "io/error.hpp"
 #include "run/engines.hpp"
+#include "run/map_stages.hpp"
 #include "run/parallel.hpp"
 #include "run/summed_area.hpp"
 #include "run/variance.hpp"
@@ -91,14 +92,20 @@ void run_in(run_context& run) {
   const image<float>& depth = run.scene.depth;
   variance_technique<T> technique(run.how, run.storage, depth);
   technique.begin({0, 1});
-  image<T> texels(depth.width, depth.height, 2);
-  {
-    const stopwatch watch(run.result.map_seconds);
-    for_rows(run.threads, depth.height, [&](int y) { technique.fill(depth, y, texels.row(y)); });
-  }
   const encoding& format = run.storage.format;
+  const auto pass = [&](auto row, image<T>& out) {
+    {
+      const stopwatch watch(run.result.map_seconds);
+      for_rows(run.threads, out.height, row);
+    }
+    const stopwatch watch(run.result.emulation_seconds);
+    for_rows(run.threads, out.height, [&](int y) { round_row(run.storage, out.row(y)); });
+  };
+  const auto fill = [&](const image<float>& map, int y, std::span<T> row) {
+    technique.fill(map, y, row);
+  };
+  image<T> texels = resolved_texels<T>(run.scene, run.look.samples, 2, fill, pass);
   if (format.kind == family::binary) {
-    for_rows(run.threads, depth.height, [&](int y) { round_row(run.storage, texels.row(y)); });
     run_sums<T>(run, std::move(texels), technique);
   } else if (format.width <= 16) {
     run_codes<T, std::uint32_t>(run, texels, technique);

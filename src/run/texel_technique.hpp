@@ -40,10 +40,8 @@ class texel_technique {
 template <class Map>
 void run_texel_map(run_context& run, const Map& map) {
   const auto in = [&]<class T>(T) {
-    native_engine<T, texel_technique<T, Map>> engine(run.scene, run.how,
-                                                     texel_technique<T, Map>(map), run.storage,
-                                                     run.look, run.threads, run.result);
-    run_layers(engine, run.scene, run.how, run.layers, false, run.result);
+    native_engine<T, texel_technique<T, Map>> engine(run, texel_technique<T, Map>(map));
+    run_layers(engine, run);
   };
   run.storage.wide ? in(double{}) : in(float{});
 }

@@ -147,7 +147,8 @@ weighted_texels general_footprint_of(const lookup& look, const receiver& r,
   return result;
 }
 
-/// The share of each receiver's footprint for which lit(receiver, x, y) holds, rounded once.
+/// The share of each receiver's footprint for which lit(x, y, sample) holds, rounded once: over
+/// all samples of a texel and all lookups of a light.
 template <class MakeLit>
 std::vector<double> share_of(const frame& scene, const configuration& how, int threads,
                              MakeLit make_lit) {
@@ -156,7 +157,8 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
   for (const double w : blur_of(how).weights) blur.push_back(on_grid(w, 24));
   const lookup look{
       how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
-      how.filter == texel_filter::trilinear, how.max_anisotropy};
+      how.filter == texel_filter::trilinear, how.max_anisotropy, how.filtered.msaa};
+  const int samples = look.samples;
   const int width = scene.depth.width, height = scene.depth.height;
   std::vector<double> shares(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
   for_ranges(threads, shares.size(), 512, [&](std::size_t first, std::size_t last) {
@@ -167,23 +169,36 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
       if (how.method == technique::savsm) {
         const auto box = box_of(r, width, height, smallest_box(how));
         int count = 0;
-        for (int y = box.y0; y < box.y1; ++y) {
-          for (int x = box.x0; x < box.x1; ++x) count += lit(x, y) ? 1 : 0;
+        for (int s = 0; s < samples; ++s) {
+          for (int y = box.y0; y < box.y1; ++y) {
+            for (int x = box.x0; x < box.x1; ++x) count += lit(x, y, s) ? 1 : 0;
+          }
         }
-        shares[i] = static_cast<double>(count) / box.area();
-      } else if (look.plain()) {
-        const auto at = plain_footprint_of(look, r, blur, width, height);
-        const auto share = lit_share<uint128>(
-            at.columns, at.rows, [&](int x, int y, std::size_t, std::size_t) { return lit(x, y); });
-        shares[i] = quotient_to_double(wide<2>(share), wide<2>(uint128{1} << 96));
-      } else {
-        const auto at = general_footprint_of(look, r, blur, width, height);
-        wide<3> share;
-        for (const auto& texel : at.texels) {
-          if (lit(texel.x, texel.y)) share += texel.weight;
-        }
-        shares[i] = quotient_to_double(share, at.whole);
+        shares[i] = static_cast<double>(count) / (static_cast<double>(box.area()) * samples);
+        continue;
       }
+      wide<3> share, whole;
+      each_lookup(r, how.filtered.lookups, width, height, [&](const receiver& there) {
+        if (look.plain()) {
+          const auto at = plain_footprint_of(look, there, blur, width, height);
+          for (int s = 0; s < samples; ++s) {
+            share += wide<3>(lit_share<uint128>(
+                at.columns, at.rows,
+                [&](int x, int y, std::size_t, std::size_t) { return lit(x, y, s); }));
+            whole += wide<3>(uint128{1} << 96);
+          }
+          return;
+        }
+        // Every lookup's weights have one sum, so that sums of shares are means.
+        const auto at = general_footprint_of(look, there, blur, width, height);
+        for (int s = 0; s < samples; ++s) {
+          for (const auto& texel : at.texels) {
+            if (lit(texel.x, texel.y, s)) share += texel.weight;
+          }
+          whole += at.whole;
+        }
+      });
+      shares[i] = quotient_to_double(share, whole);
     }
   });
   return shares;
@@ -192,13 +207,16 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
 }  // namespace
 
 std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads) {
+  const auto maps = depth_maps(scene, how.filtered.msaa);
   return share_of(scene, how, threads, [&](const receiver& r) {
-    return [&scene, t = r.t](int x, int y) { return scene.depth.at(x, y) >= t; };
+    return [&maps, t = r.t](int x, int y, int s) {
+      return maps[static_cast<std::size_t>(s)]->at(x, y) >= t;
+    };
   });
 }
 
 /// A texel of the receiver's own surface cannot occlude it: surfaces are planar. Any other texel
-/// occludes it where its depth lies under the tangent plane at the texel's centre by more than
+/// occludes it where its depth lies under the tangent plane at the texel's sample by more than
 ///
 ///   2^-24 * (16 + |dt/du| + |dt/dv|)
 ///
@@ -210,11 +228,17 @@ std::vector<double> truth_geometric(const frame& scene, const configuration& how
     const double du = r.dt_du, dv = r.dt_dv;
     const double tolerance = 0x1p-24 * (16 + std::fabs(du) + std::fabs(dv));
     const double at_origin = static_cast<double>(r.t) - tolerance - du * r.u - dv * r.v;
-    return [&scene, &r, du, dv, at_origin](int x, int y) {
-      if (!scene.surface.texels.empty() && scene.surface.at(x, y) == r.surface) return true;
-      const double plane =
-          at_origin + du * ((x + 0.5) / scene.depth.width) + dv * ((y + 0.5) / scene.depth.height);
-      return static_cast<double>(scene.depth.at(x, y)) >= plane;
+    const std::vector<map_sample>* const samples =
+        how.filtered.msaa > 1 ? &scene.samples.at(how.filtered.msaa) : nullptr;
+    return [&scene, &r, du, dv, at_origin, samples](int x, int y, int s) {
+      const map_sample* sample = samples ? &(*samples)[static_cast<std::size_t>(s)] : nullptr;
+      const auto& surface = sample ? sample->surface : scene.surface;
+      const auto& depth = sample ? sample->depth : scene.depth;
+      if (!surface.texels.empty() && surface.at(x, y) == r.surface) return true;
+      const double px = x + 0.5 + (sample ? sample->at.x / 16.0 : 0);
+      const double py = y + 0.5 + (sample ? sample->at.y / 16.0 : 0);
+      const double plane = at_origin + du * (px / depth.width) + dv * (py / depth.height);
+      return static_cast<double>(depth.at(x, y)) >= plane;
     };
   });
 }

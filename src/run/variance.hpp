@@ -18,11 +18,13 @@
 
 namespace bitshade {
 
-/// How often a moment is rounded on its way to the light: the store, two blur passes, mips.
+/// How often a moment is rounded on its way to the light: the store, the resolve, blur passes,
+/// mips.
 inline int roundings_of(const configuration& how, const image<float>& depth) {
   const int mips =
       how.filter == texel_filter::trilinear ? mip_levels(depth.width, depth.height) - 1 : 0;
-  return 1 + (how.blurred() ? 2 : 0) + mips;
+  const int passes = !how.blurred() ? 0 : how.filtered.way == blur_way::one_pass ? 1 : 2;
+  return 1 + (how.filtered.msaa > 1 ? 1 : 0) + passes + mips;
 }
 
 /// The largest error of a variance that a format's roundings can cause, in a layer's own units.

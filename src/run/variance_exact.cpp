@@ -8,9 +8,8 @@ namespace {
 
 template <int S, bool General>
 void run_in(run_context& run) {
-  exact_engine<S, General> engine(run.scene, run.how, run.look, run.threads, run.result);
-  run_layers(engine, run.scene, run.how, run.layers,
-             run.effects.simulates("layers without receivers"), run.result);
+  exact_engine<S, General> engine(run);
+  run_layers(engine, run);
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #include "run/variance.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <string>
+
 #include "bitshade/shadow/layer_packing.hpp"
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
@@ -8,6 +12,25 @@
 namespace bitshade {
 
 namespace {
+
+/// Says so where the floor is under what the format's noise needs, in the widest layer in use.
+void note_low_floor(run_context& run) {
+  if (run.how.noise_floor) return;
+  double width = 0;
+  for (std::size_t i = 0; i < run.layers.intervals.size(); ++i) {
+    const interval& layer = run.layers.intervals[i];
+    if (!run.layers.users[i].empty()) width = std::max(width, layer.far - layer.near);
+  }
+  const double noise = variance_noise(run.how, run.storage, run.scene.depth);
+  const double needed = floor_for(noise, tolerated_error) * width * width;
+  if (!(run.how.min_variance < needed)) return;
+  char text[32];
+  const auto end =
+      std::to_chars(text, text + sizeof text, needed, std::chars_format::general, 3).ptr;
+  run.result.notes.push_back("the floor " + detail::shortest(run.how.min_variance) + " is under " +
+                             std::string(text, end) + ", which the noise of " + run.how.format +
+                             " needs to keep lit receivers within 1/255");
+}
 
 /// Moments of all layers from one reading of the depths, two layers in four channels side by side;
 /// then each layer's are filtered like those that a post-process makes, and their bits are equal.
@@ -66,10 +89,8 @@ class one_pass_technique {
 
 template <class T, class Technique>
 void run_technique(run_context& run, Technique technique) {
-  native_engine<T, Technique> engine(run.scene, run.how, std::move(technique), run.storage,
-                                     run.look, run.threads, run.result);
-  run_layers(engine, run.scene, run.how, run.layers,
-             run.effects.simulates("layers without receivers"), run.result);
+  native_engine<T, Technique> engine(run, std::move(technique));
+  run_layers(engine, run);
 }
 
 template <class T>
@@ -85,6 +106,7 @@ void run_in(run_context& run) {
 }  // namespace
 
 void run_variance_native(run_context& run) {
+  note_low_floor(run);
   run.storage.wide ? run_in<double>(run) : run_in<float>(run);
 }
 

@@ -39,19 +39,21 @@ void for_rows(int rows, int threads, const Row& row) {
   });
 }
 
-void draw_map(const view& v, frame& out, int threads) {
-  const int size = out.depth.width;
+/// The map through one place of every texel; 1 and 0 stay where nothing is hit.
+void draw_map(const view& v, sample_position at, image<float>& depth, image<std::uint32_t>& surface,
+              int threads) {
+  const int size = depth.width;
   // Rays start a little in front of the nearest vertex: binary32 rays resolve less, the farther
   // off.
   for_rows(size, threads, [&](int y) {
     for (int x = 0; x < size; ++x) {
-      const double s = (x + 0.5) / size, t = (y + 0.5) / size;
+      const double s = (x + 0.5 + at.x / 16.0) / size, t = (y + 0.5 + at.y / 16.0) / size;
       const auto ray = v.light.ray_through(s, t);
       const double start = v.light.nearest() - 1e-3 * std::abs(v.light.nearest());
       const auto hit = v.rays.first_hit(ray.origin + ray.direction * start, ray.direction);
       if (!hit) continue;
-      out.depth.at(x, y) = static_cast<float>(v.light.depth_at(v.triangle(*hit), s, t));
-      out.surface.at(x, y) = v.world.surfaces[*hit];
+      depth.at(x, y) = static_cast<float>(v.light.depth_at(v.triangle(*hit), s, t));
+      surface.at(x, y) = v.world.surfaces[*hit];
     }
   });
 }
@@ -136,7 +138,15 @@ frame build_frame(const scene& world, const scene_options& options) {
   out.name = world.name;
   out.depth = image<float>(options.map_size, options.map_size, 1, 1.0f);
   out.surface = image<std::uint32_t>(options.map_size, options.map_size);
-  draw_map(v, out, options.threads);
+  draw_map(v, {}, out.depth, out.surface, options.threads);
+  for (const int samples : options.samples) {
+    for (const sample_position at : sample_pattern(samples)) {
+      map_sample& s = out.samples[samples].emplace_back(
+          map_sample{image<float>(options.map_size, options.map_size, 1, 1.0f),
+                     image<std::uint32_t>(options.map_size, options.map_size), at});
+      draw_map(v, at, s.depth, s.surface, options.threads);
+    }
+  }
 
   out.view_width = options.view_width;
   out.view_height = options.view_height;

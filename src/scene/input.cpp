@@ -76,7 +76,7 @@ frame load_input(const std::string& name, const scene_options& options) {
     if (options.time)
       throw usage_error(name + " is a captured depth map, which does not move: leave out --animate");
     refuse(options,
-           {"--size", "--param", "--light", "--light-position", "--light-to", "--light-range",
+           {"--msaa", "--size", "--param", "--light", "--light-position", "--light-to", "--light-range",
             "--camera", "--metric", "--seed"},
            "a captured depth map", "leave it out, the map has been made already");
     return load_captured(name, options);

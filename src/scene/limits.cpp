@@ -54,10 +54,12 @@ void check_sizes(const scene_options& options, std::size_t triangles) {
                       static_cast<std::uint64_t>(options.view_height);
   // Embree's hierarchy takes about 100 bytes a triangle.
   const std::uint64_t geometry = static_cast<std::uint64_t>(triangles) * 160;
-  check_memory(map * map * (sizeof(float) + sizeof(std::uint32_t)) + geometry,
+  std::uint64_t maps = 1;
+  for (const int samples : options.samples) maps += static_cast<std::uint64_t>(samples);
+  check_memory(maps * map * map * (sizeof(float) + sizeof(std::uint32_t)) + geometry,
                "a depth map of " + std::to_string(map) + " x " + std::to_string(map) + " texels",
                "ask for a smaller --size");
-  check_memory(map * map * 8 + geometry + pixels * sizeof(receiver),
+  check_memory(maps * map * map * 8 + geometry + pixels * sizeof(receiver),
                "a view of " + std::to_string(options.view_width) + " x " +
                    std::to_string(options.view_height) + " pixels",
                "ask for a smaller --view");

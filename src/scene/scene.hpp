@@ -87,6 +87,7 @@ struct scene_options {
   std::optional<std::pair<double, double>> depth_range;  ///< --depth-range near,far
   bool mask_invalid = false;                             ///< --mask-invalid
   std::uint64_t seed = 1;
+  std::set<int> samples;  ///< --msaa: numbers of samples of a texel, beside its centre
   int threads = 0;  ///< 0: all cores
 
   /// The options that the user gave, such as "--size": what cannot go together is found by them,
@@ -127,7 +128,8 @@ bool is_mesh_file(const std::filesystem::path& path);
 /// Failure  failure for a file that is missing, broken, empty, or without finite triangles.
 scene load_mesh(const std::filesystem::path& file, const scene_options& options);
 
-/// The light's depth map and the camera's receivers, by rays; the same bits for any thread count.
+/// The light's depth map, its samples where more than one is asked for, and the camera's
+/// receivers, by rays; the same bits for any thread count.
 ///
 /// Failure  usage_error for sizes of zero or beyond memory, before anything is allocated.
 frame build_frame(const scene& scene, const scene_options& options);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bitshade/study/filtering.hpp"
 #include "bitshade/study/lloyd_choices.hpp"
 
 namespace bitshade {
@@ -92,8 +93,9 @@ struct configuration {
   bool one_pass = false;      ///< all layers from one reading of the depths, packed in pairs
   lloyd_choices lloyd;        ///< for the rules that start with Lloyd relaxation
 
-  int blur_taps = 9;  ///< separable Gaussian; odd, 1 to 25; 0 and 1: none
+  int blur_taps = 9;  ///< along each axis; odd, 1 to 25; 0 and 1: none
   double blur_sigma = 2.0;
+  filtering filtered;          ///< samples, shape and way of the blur, lookups
   double min_variance = 1e-5;  ///< sigma_min^2; the range 1e-6 .. 1e-4 is common
   bool noise_floor = false;    ///< never a floor under what the format's noise needs for 1/255
   bool slope_term = false;     ///< the receiver-slope term (12), limited at silhouettes
@@ -140,6 +142,14 @@ inline bool relaxes(split_rule rule) {
 
 inline bool stores_variance(technique t) {
   return t == technique::vsm || t == technique::savsm || t == technique::lvsm;
+}
+
+/// Whether several lookups make one light: a hard test has one, a SAT its own rectangle.
+inline bool averages_lookups(technique t) { return t != technique::hard && t != technique::savsm; }
+
+/// Whether what the technique stores is blurred as it is; a PCF filters answers, a SAT sums.
+inline bool blurs_its_map(technique t) {
+  return t != technique::hard && t != technique::pcf && t != technique::savsm;
 }
 
 inline int configuration::channels() const {
@@ -194,8 +204,17 @@ inline std::string configuration::key() const {
       if (relaxes(splits) && !lloyd.key().empty()) add("lloyd", lloyd.key());
     }
   }
+  if (filtered.msaa > 1 && method != technique::hard) add("msaa", std::to_string(filtered.msaa));
   if (blurred() && method != technique::hard) {
-    add("blur", std::to_string(blur_taps) + "/" + detail::shortest(blur_sigma));
+    const bool box = filtered.shape == blur_shape::box && method != technique::savsm;
+    add("blur", std::to_string(blur_taps) + "/" + (box ? "box" : detail::shortest(blur_sigma)));
+    if (blurs_its_map(method) && filtered.way == blur_way::one_pass) add("blur-way", "one-pass");
+    if (blurs_its_map(method) && filtered.way == blur_way::linear) {
+      add("blur-way", "linear/" + std::to_string(filtered.fraction_bits));
+    }
+  }
+  if (filtered.lookups > 1 && averages_lookups(method)) {
+    add("lookups", std::to_string(filtered.lookups));
   }
   if (uses_floor(method)) {
     add("min-variance", detail::shortest(min_variance));
@@ -268,6 +287,7 @@ inline void configuration::validate() const {
   if (!(blur_sigma > 0 && blur_sigma <= 64)) {
     refuse("blur sigma = " + detail::shortest(blur_sigma) + " is outside 0 to 64 texels");
   }
+  filtered.validate();
   // Exact kernels hold floors of 1e-60 and more as integers of known width.
   if (!(min_variance == 0 || (min_variance >= 1e-60 && min_variance <= 1))) {
     refuse("min-variance = " + detail::shortest(min_variance) +

@@ -93,6 +93,25 @@ inline std::vector<linear_tap> linear_taps(const kernel& in, int weight_bits = 0
   return result;
 }
 
+namespace blur_detail {
+
+/// One texel's sum of bilinear fetches along an axis of `size` texels, of which it is number i.
+template <class T, class Texel>
+T linear_sum(std::span<const linear_tap> taps, int i, int size, address mode, const T& border,
+             Texel texel) {
+  T sum = static_cast<T>(0);
+  for (const linear_tap& tap : taps) {
+    const int first = texel_floor(tap.offset);
+    const T f = static_cast<T>(tap.offset - first);
+    const int i0 = wrap(i + first, size, mode), i1 = wrap(i + first + 1, size, mode);
+    const T a = i0 < 0 ? border : texel(i0), b = i1 < 0 ? border : texel(i1);
+    sum = sum + static_cast<T>(tap.weight) * (a + f * (b - a));
+  }
+  return sum;
+}
+
+}  // namespace blur_detail
+
 /// Row y blurred along its rows by bilinear fetches.
 ///
 /// Policy   each fetch a + f (b - a) in T, then weighted and summed in the taps' order.
@@ -100,17 +119,19 @@ template <class T>
 void blur_row_linear(const image<T>& in, std::span<const linear_tap> taps, address mode, int y,
                      std::span<T> out, const T& border = T(0)) {
   for (int x = 0; x < in.width; ++x)
-    for (int c = 0; c < in.channels; ++c) {
-      T sum = static_cast<T>(0);
-      for (const linear_tap& tap : taps) {
-        const int first = texel_floor(tap.offset);
-        const T f = static_cast<T>(tap.offset - first);
-        const int i0 = wrap(x + first, in.width, mode), i1 = wrap(x + first + 1, in.width, mode);
-        const T a = i0 < 0 ? border : in.at(i0, y, c), b = i1 < 0 ? border : in.at(i1, y, c);
-        sum = sum + static_cast<T>(tap.weight) * (a + f * (b - a));
-      }
-      out[static_cast<std::size_t>(x * in.channels + c)] = sum;
-    }
+    for (int c = 0; c < in.channels; ++c)
+      out[static_cast<std::size_t>(x * in.channels + c)] = blur_detail::linear_sum<T>(
+          taps, x, in.width, mode, border, [&](int i) { return in.at(i, y, c); });
+}
+
+/// Row y blurred along its columns by bilinear fetches.
+template <class T>
+void blur_column_linear(const image<T>& in, std::span<const linear_tap> taps, address mode, int y,
+                        std::span<T> out, const T& border = T(0)) {
+  for (int x = 0; x < in.width; ++x)
+    for (int c = 0; c < in.channels; ++c)
+      out[static_cast<std::size_t>(x * in.channels + c)] = blur_detail::linear_sum<T>(
+          taps, y, in.height, mode, border, [&](int j) { return in.at(x, j, c); });
 }
 
 }  // namespace bitshade

@@ -1,4 +1,4 @@
-// Gaussian weights as given data: the same bits everywhere, and a sum of exactly 1.
+// Gaussian and box weights as given data: the same bits everywhere, and a sum of exactly 1.
 #pragma once
 
 #include <cstddef>
@@ -55,6 +55,23 @@ inline kernel gaussian_kernel(int taps, double sigma) {
   }
   result.weights[static_cast<std::size_t>(radius)] =
       static_cast<double>((std::int64_t{1} << 24) - 2 * spent) * kernel_grid;
+  return result;
+}
+
+/// Equal weights, as far as the grid allows: the middle one takes what is left.
+///
+/// Shapes   taps weights, taps odd, 1 to 1023; symmetric bit for bit.
+/// Error    each weight within taps / 2 grid steps of 1/taps, all but the middle within 1/2; the
+///          sum is exactly 1.
+/// Failure  std::invalid_argument for other taps.
+inline kernel box_kernel(int taps) {
+  if (taps < 1 || taps % 2 == 0 || taps > 1023)
+    throw std::invalid_argument("a box kernel needs an odd number of taps, at most 1023");
+  const std::int64_t whole = std::int64_t{1} << 24, each = (whole + taps / 2) / taps;
+  kernel result{
+      std::vector<double>(static_cast<std::size_t>(taps), static_cast<double>(each) * kernel_grid)};
+  result.weights[static_cast<std::size_t>(taps / 2)] =
+      static_cast<double>(whole - each * (taps - 1)) * kernel_grid;
   return result;
 }
 

@@ -19,17 +19,23 @@ struct axis_taps {
 
 namespace locate_detail {
 
+/// Whether a floor is where texel_floor stops: the number itself may lie anywhere beyond.
+constexpr bool beyond_indices(int floor) {
+  return floor == max_texel_index || floor == -max_texel_index;
+}
+
+/// Whole texels apart, so that no coordinate is too large for its grid.
 template <class T>
 T on_grid(const T& x, int bits, snap how) {
   if (how == snap::none || bits == 0) return x;
+  const int whole = texel_floor(x);
+  if (beyond_indices(whole)) return x;
   const T grid = static_cast<T>(1 << bits);
-  const T scaled = x * grid;
-  if (how == snap::floor) return static_cast<T>(texel_floor(scaled)) / grid;
+  const T scaled = (x - static_cast<T>(whole)) * grid;
   const int below = texel_floor(scaled);
-  const T rest = scaled - static_cast<T>(below);
-  const T half = static_cast<T>(0.5);
-  const bool up = half < rest || (rest == half && (below & 1) != 0);
-  return static_cast<T>(below + (up ? 1 : 0)) / grid;
+  const T rest = scaled - static_cast<T>(below), half = static_cast<T>(0.5);
+  const bool up = how == snap::nearest && (half < rest || (rest == half && (below & 1) != 0));
+  return static_cast<T>(whole) + static_cast<T>(below + (up ? 1 : 0)) / grid;
 }
 
 template <class T>
@@ -82,7 +88,7 @@ axis_taps<T> locate_axis(const filter_model& model, T u, int size, address mode)
   if (!model.snap_before_centring) x = on_grid(x, model.grid_bits, model.grid_snap);
 
   const int below = texel_floor(x);
-  T weight = x - static_cast<T>(below);
+  T weight = beyond_indices(below) ? zero : x - static_cast<T>(below);
   if (model.weight_bits > 0) weight = on_grid(weight, model.weight_bits, model.weight_snap);
   if (limited && model.clamp == clamp_rule::integers && (below < 0 || below >= size - 1)) {
     const int edge = below < 0 ? 0 : size - 1;

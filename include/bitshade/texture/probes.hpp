@@ -47,6 +47,35 @@ inline void orthogonalise(float& ux, float& vx, float& uy, float& vy) {
   vy = static_cast<float>(cosine * d - sine * b);
 }
 
+/// Feline: probes on the major axis of the ellipse whose radii are `major` and `minor`, so far
+/// apart that their own footprints, of the minor radius, cover it; a Gaussian e^(-2 r^2), r = 1 at
+/// the ellipse's end.
+///
+///   n = nearest(2 major/minor - 1), limited (then the minor radius grows to 2 major/(n + 1));
+///   places spread over 2 (major - minor), level log2 minor
+inline void plan_feline(probe_plan& plan, float major, float minor, float cap, log2_rule log2) {
+  const bool limited = !(2 * major <= (cap + 1) * minor);
+  const float wanted = limited ? cap : std::max(1.0f, 2 * major / minor - 1);
+  plan.count = std::max(1, std::min(texel_floor(wanted + 0.5f), static_cast<int>(cap)));
+  const auto n = static_cast<float>(plan.count);
+  if (n < wanted || limited) minor = 2 * major / (n + 1);
+  plan.lambda = half_log2(log2, minor * minor);
+  if (plan.count == 1) return;
+  plan.first = -(major - minor) / major;
+  plan.spacing = -2 * plan.first / (n - 1);
+  plan.uniform = false;
+  double total = 0;
+  std::array<double, max_probes> w{};
+  for (int i = 0; i < plan.count; ++i) {
+    // (2i - n + 1) / (n - 1), an exact numerator, keeps the weights symmetric bit for bit.
+    const double r = static_cast<double>(plan.first) * (2 * i - plan.count + 1) / (plan.count - 1);
+    total += w[static_cast<std::size_t>(i)] = exp_fixed(-2 * r * r);
+  }
+  for (int i = 0; i < plan.count; ++i)
+    plan.weights[static_cast<std::size_t>(i)] =
+        static_cast<float>(w[static_cast<std::size_t>(i)] / total);
+}
+
 }  // namespace probe_detail
 
 /// Ratio, number and place of the probes by one rule.
@@ -77,6 +106,10 @@ inline probe_plan plan_probes(anisotropy_rule rule, log2_rule log2, const gradie
   plan.du = along_x ? gu : hu;
   plan.dv = along_x ? gv : hv;
 
+  if (rule == anisotropy_rule::feline) {
+    probe_detail::plan_feline(plan, std::sqrt(longer), std::sqrt(shorter), cap, log2);
+    return plan;
+  }
   float ratio;
   if (rule == anisotropy_rule::vulkan) {
     ratio = shorter * cap * cap <= longer ? cap : std::sqrt(longer / shorter);
@@ -102,20 +135,6 @@ inline probe_plan plan_probes(anisotropy_rule rule, log2_rule log2, const gradie
     plan.first = -(n - 1) / (2 * n);
   }
   plan.lambda = half_log2(log2, longer * (1.0f / (ratio * ratio)));
-
-  if (rule == anisotropy_rule::feline && plan.count > 1) {
-    // A Gaussian of the ellipse, e^(-2 r^2), r = 1 at the end of the major axis.
-    plan.uniform = false;
-    double total = 0;
-    std::array<double, max_probes> w{};
-    for (int i = 0; i < plan.count; ++i) {
-      const double r = 2 * (static_cast<double>(2 * i + 1 - plan.count) / (2 * plan.count));
-      total += w[static_cast<std::size_t>(i)] = exp_fixed(-2 * r * r);
-    }
-    for (int i = 0; i < plan.count; ++i)
-      plan.weights[static_cast<std::size_t>(i)] =
-          static_cast<float>(w[static_cast<std::size_t>(i)] / total);
-  }
   return plan;
 }
 

@@ -41,17 +41,26 @@ inline std::span<const sample_position> sample_pattern(int samples) {
 
 /// Row y of the resolved image: the mean of all samples, all channels.
 ///
-///   ((s_0 + s_1) + s_2 .. ) / n, first to last
+///   with n = 4: (s_0/4 + s_1/4) + (s_2/4 + s_3/4)
 ///
-/// Shapes   one image a sample, all of one size; out.size() == row_size().
-/// Policy   sums are T's in that order; the division by a power of two is exact in binary T.
+/// Divided before they are summed, so that no sum can overflow where its mean does not; summed in
+/// pairs, so that equal samples resolve to themselves, bit for bit (but for subnormal quotients).
+///
+/// Shapes   one image a sample, all of one size, 1, 2, 4 or 8 of them; out.size() == row_size().
+/// Policy   quotients and sums are T's in that order.
+/// Error    none for exact T; in binary T log2(n) roundings of partial sums.
+/// Failure  std::invalid_argument for another number of samples.
 template <class T>
 void resolve_row(std::span<const image<T>> samples, int y, std::span<T> out) {
-  const T count = static_cast<T>(static_cast<int>(samples.size()));
+  const std::size_t count = sample_pattern(static_cast<int>(samples.size())).size();
+  const T share = static_cast<T>(1) / static_cast<T>(static_cast<int>(count));
+  std::array<T, 8> part{};
   for (std::size_t i = 0; i < out.size(); ++i) {
-    T sum = samples[0].row(y)[i];
-    for (std::size_t s = 1; s < samples.size(); ++s) sum = sum + samples[s].row(y)[i];
-    out[i] = sum / count;
+    for (std::size_t s = 0; s < count; ++s) part[s] = samples[s].row(y)[i] * share;
+    for (std::size_t left = count / 2; left > 0; left /= 2) {
+      for (std::size_t s = 0; s < left; ++s) part[s] = part[2 * s] + part[2 * s + 1];
+    }
+    out[i] = part[0];
   }
 }
 

@@ -24,6 +24,24 @@ TEST_CASE("a key holds what decides the bits, and nothing else") {
         "min-variance=1e-05 filter=bilinear");
 }
 
+TEST_CASE("a key holds how a map is filtered where that concerns the technique") {
+  configuration plain, c;
+  c.filtered = {4, blur_shape::box, blur_way::linear, 6, 3};
+  CHECK(c.key() ==
+        "vsm format=unorm16 msaa=4 blur=9/box blur-way=linear/6 lookups=3 min-variance=1e-05 "
+        "filter=bilinear");
+  c.filtered.way = blur_way::one_pass;
+  CHECK(c.key().find(" blur-way=one-pass ") != std::string::npos);
+  c.method = technique::pcf;
+  CHECK(c.key() == "pcf format=unorm16 msaa=4 blur=9/box lookups=3 filter=bilinear");
+  c.method = plain.method = technique::savsm;
+  c.filtered.msaa = 1;
+  CHECK(c.key() == plain.key());
+  c.method = plain.method = technique::hard;
+  c.filtered.msaa = 8;
+  CHECK(c.key() == plain.key());
+}
+
 TEST_CASE("contradicting fields are refused with a sentence") {
   configuration good;
   CHECK_NOTHROW(good.validate());
@@ -35,6 +53,9 @@ TEST_CASE("contradicting fields are refused with a sentence") {
   refused([](configuration& c) { c.layers = 0; });
   refused([](configuration& c) { c.blur_taps = 4; });
   refused([](configuration& c) { c.blur_sigma = 0; });
+  refused([](configuration& c) { c.filtered.msaa = 3; });
+  refused([](configuration& c) { c.filtered.lookups = 2; });
+  refused([](configuration& c) { c.filtered.fraction_bits = 17; });
   refused([](configuration& c) { c.min_variance = -1; });
   refused([](configuration& c) { c.overlap = 0.6; });
   refused([](configuration& c) { c.bleeding_reduction = 1; });
