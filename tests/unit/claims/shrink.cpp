@@ -16,7 +16,7 @@ const shape footprint{{"x", quantity::share, 1, 6},
 }  // namespace
 
 TEST_CASE("random cases are read back from their own text") {
-  random_stream random(3, 0);
+  bitshade::random_stream random(3, 0);
   for (int i = 0; i < 300; ++i) {
     const sample s = draw(footprint, random);
     INFO(text_of(s));
@@ -43,7 +43,7 @@ TEST_CASE("a case is taken exactly, and refused with its own words") {
 }
 
 TEST_CASE("every simpler number is simpler, of the same kind, and they end") {
-  random_stream random(5, 0);
+  bitshade::random_stream random(5, 0);
   for (int i = 0; i < 200; ++i) {
     const sample s = draw(footprint, random);
     for (std::size_t k = 0; k < footprint.size(); ++k)
@@ -57,7 +57,7 @@ TEST_CASE("every simpler number is simpler, of the same kind, and they end") {
 }
 
 TEST_CASE("a mean above 3/5 shrinks to one texel of the simplest such depth") {
-  random_stream random(7, 0);
+  bitshade::random_stream random(7, 0);
   for (int i = 0; i < 40; ++i) {
     const auto high = [](const sample& s) {
       number sum;
@@ -74,7 +74,7 @@ TEST_CASE("a mean above 3/5 shrinks to one texel of the simplest such depth") {
 }
 
 TEST_CASE("shrinking stops at its budget, with a case that is still wanted") {
-  random_stream random(9, 0);
+  bitshade::random_stream random(9, 0);
   const sample start = draw(footprint, random);
   const auto wanted = [&](const sample& s) { return s.list("x").size() == start.list("x").size(); };
   const shrunk_sample end = shrink(start, wanted, 5);
