@@ -75,6 +75,11 @@ std::string brief(double value, int digits) {
   return {buffer, end};
 }
 
+std::string brief_or_whole(double value, int digits) {
+  const bool whole = value > -1e7 && value < 1e7 && value == static_cast<int>(value);
+  return whole ? std::to_string(static_cast<int>(value)) : brief(value, digits);
+}
+
 std::string percent(double share) {
   const double value = share * 100;
   if (value == 0) return "0";

@@ -25,6 +25,9 @@ std::string shortest(double value);
 /// people.
 std::string brief(double value, int digits = 3);
 
+/// The same, but whole numbers below 10^7 as they are: for columns that hold counts as well.
+std::string brief_or_whole(double value, int digits = 3);
+
 /// A share of 1 in per cent: "0", "<0.01", "0.37", "12.4".
 std::string percent(double share);
 
