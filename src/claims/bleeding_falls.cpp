@@ -42,7 +42,7 @@ double bleeding_at(const method& m, const number& ratio) {
 
 /// -d ln p / d ln dy there, over a sixteenth of an octave or so.
 double local_exponent(const method& m, const number& ratio) {
-  const number low = ratio * number(rational(63, 64)), high = ratio * number(rational(65, 64));
+  const number low = ratio * number(63, 64), high = ratio * number(65, 64);
   return -(log2_fixed(bleeding_at(m, high)) - log2_fixed(bleeding_at(m, low))) /
          log2_fixed(65.0 / 63.0);
 }

@@ -37,7 +37,7 @@ number stored_light(const method& m, const encoding& format, std::span<const num
 number share_lit(std::span<const number> x, const number& t) {
   int lit = 0;
   for (const number& depth : x) lit += depth >= t ? 1 : 0;
-  return number(rational(lit, static_cast<int>(x.size())));
+  return number(lit, static_cast<int>(x.size()));
 }
 
 std::vector<number> two_depths(const number& a, const number& b, int nearer, int of) {

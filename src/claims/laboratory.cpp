@@ -17,19 +17,25 @@ hunt_result laboratory::search(const trial& statement, std::uint64_t key, long c
   return hunt(statement, method_, stream(key), tries(count), within);
 }
 
-const frame& laboratory::scene(const std::string& name,
-                               const std::map<std::string, std::string>& parameters) {
-  std::string key = name;
-  for (const auto& [parameter, value] : parameters) key += " " + parameter + "=" + value;
-  if (const auto found = scenes_.find(key); found != scenes_.end()) return found->second;
+scene_options laboratory::sizes() const {
   const double side = std::sqrt(std::min(1.0, how_.scale));
   const auto scaled = [&](int full) { return std::max(32, static_cast<int>(full * side)); };
   scene_options options;
   options.map_size = scaled(256);
   options.view_width = scaled(192);
   options.view_height = scaled(120);
-  options.parameters = parameters;
+  options.seed = how_.seed;
   options.threads = how_.threads;
+  return options;
+}
+
+const frame& laboratory::scene(const std::string& name,
+                               const std::map<std::string, std::string>& parameters) {
+  std::string key = name;
+  for (const auto& [parameter, value] : parameters) key += " " + parameter + "=" + value;
+  if (const auto found = scenes_.find(key); found != scenes_.end()) return found->second;
+  scene_options options = sizes();
+  options.parameters = parameters;
   frame built = load_input(name, options);
   built.name = key;
   return scenes_.emplace(key, std::move(built)).first->second;
@@ -59,15 +65,17 @@ picture_result laboratory::picture(const frame& scene, const configuration& how)
   return result;
 }
 
+timing summary_of(std::vector<double> seconds) {
+  std::sort(seconds.begin(), seconds.end());
+  return {seconds[seconds.size() / 2], seconds.front(), seconds.back()};
+}
+
 std::vector<timing> time_in_turn(const std::vector<std::function<double()>>& seconds, int rounds) {
   std::vector<std::vector<double>> all(seconds.size());
   for (int round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < seconds.size(); ++i) all[i].push_back(seconds[i]());
   std::vector<timing> result;
-  for (auto& times : all) {
-    std::sort(times.begin(), times.end());
-    result.push_back({times[times.size() / 2], times.front(), times.back()});
-  }
+  for (auto& times : all) result.push_back(summary_of(std::move(times)));
   return result;
 }
 

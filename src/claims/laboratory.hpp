@@ -40,6 +40,8 @@ class laboratory {
   hunt_result search(const trial& statement, std::uint64_t key, long count,
                      condition within = nullptr) const;
 
+  /// The sizes of a map and a picture at the laboratory's scale.
+  scene_options sizes() const;
   /// An embedded scene at the laboratory's size: built once a run.
   const frame& scene(const std::string& name,
                      const std::map<std::string, std::string>& parameters = {});
@@ -61,6 +63,7 @@ struct timing {
   double median = 0;  ///< seconds
   double low = 0, high = 0;
 };
+timing summary_of(std::vector<double> seconds);
 std::vector<timing> time_in_turn(const std::vector<std::function<double()>>& seconds, int rounds);
 
 }  // namespace bitshade::claims

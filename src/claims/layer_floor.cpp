@@ -22,8 +22,7 @@ void wide_enough(sample& s) {
   ordered(s);
   number& floor = s.list("floor").front();
   while (floor > width_of(s) * width_of(s) && floor > number(split_grid)) floor /= number(2);
-  if (floor > width_of(s) * width_of(s) || denominator((floor / number(split_grid)).value()) != 1)
-    floor = 0;
+  if (floor > width_of(s) * width_of(s) || !(floor / number(split_grid)).whole()) floor = 0;
 }
 
 // C9 ----------------------------------------------------------------------------------------------

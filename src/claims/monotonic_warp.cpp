@@ -16,7 +16,7 @@ evaluation bounds_the_truth(const number& p, const number& truth) {
 /// The line through (0, w0), (1/4, w1) .. (1, w4).
 number through(const std::vector<number>& knots, const number& x) {
   std::size_t k = 0;
-  while (k + 2 < knots.size() && x > number(rational(static_cast<int>(k) + 1, 4))) ++k;
+  while (k + 2 < knots.size() && x > number(static_cast<int>(k) + 1, 4)) ++k;
   const number share = x * number(4) - number(static_cast<int>(k));
   return knots[k] + share * (knots[k + 1] - knots[k]);
 }

@@ -12,7 +12,7 @@ std::vector<number> planes(const sample& s) {
   std::vector<number> x(static_cast<std::size_t>(s.real("covered")), s["a"]);
   const int open = static_cast<int>(s.real("open"));
   for (int k = 0; k < open; ++k)
-    x.push_back(s["t"] + s["slope"] * number(rational(2 * k + 1 - open, 2 * open)));
+    x.push_back(s["t"] + s["slope"] * number(2 * k + 1 - open, 2 * open));
   return x;
 }
 

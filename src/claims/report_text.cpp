@@ -23,7 +23,7 @@ std::string indented(const std::string& text, std::size_t column = margin,
 std::string exactly(const number& x) {
   const std::string fraction = text_of(x), decimal = brief(static_cast<double>(x), 4);
   if (fraction.size() > 24) return decimal;
-  return denominator(x.value()) == 1 ? fraction : fraction + " = " + decimal;
+  return x.whole() ? fraction : fraction + " = " + decimal;
 }
 
 std::string named_numbers(const std::vector<named_number>& numbers, std::size_t column) {

@@ -10,9 +10,7 @@
 namespace bitshade::claims {
 namespace {
 
-using boost::multiprecision::cpp_int;
-
-const number grid_step(rational(1, 1 << 24));
+const number grid_step(1, 1 << 24);
 
 std::size_t below(random_stream& random, std::size_t count) {
   return static_cast<std::size_t>(random.next() * static_cast<double>(count));
@@ -22,14 +20,14 @@ number draw_number(quantity what, random_stream& random) {
   const std::size_t odds = below(random, 8);
   const auto fraction = [&](std::int64_t steps) {
     const auto k = static_cast<std::int64_t>(random.next() * static_cast<double>(steps + 1));
-    return number(rational(k, steps));
+    return number(k, steps);
   };
   switch (what) {
     case quantity::share:
       if (odds < 2) return number(static_cast<int>(odds));
       return odds < 5 ? fraction(static_cast<std::int64_t>(2 + below(random, 30))) : fraction(4096);
     case quantity::grid:
-      if (odds < 4) return number(rational(1, std::int64_t{1} << (1 + below(random, 20))));
+      if (odds < 4) return number(1, std::int64_t{1} << (1 + below(random, 20)));
       return fraction(4096);
     case quantity::whole:
       return number(1 + static_cast<int>(below(random, 16)));
@@ -38,44 +36,44 @@ number draw_number(quantity what, random_stream& random) {
 }
 
 /// "2/3", "0.7", "12": exact, or nothing.
-bool read_decimal(std::string_view text, rational& value) {
-  cpp_int digits = 0, scale = 1;
+bool read_decimal(std::string_view text, number& value) {
+  number digits = 0, scale = 1;
   bool point = false, any = false;
   for (const char c : text) {
     if (c == '.' && !point) {
       point = true;
     } else if (c >= '0' && c <= '9') {
-      digits = digits * 10 + (c - '0');
-      if (point) scale *= 10;
+      digits = digits * number(10) + number(c - '0');
+      if (point) scale *= number(10);
       any = true;
     } else {
       return false;
     }
   }
-  value = rational(digits, scale);
+  value = digits / scale;
   return any && text.size() <= 100;
 }
 
 number read_number(std::string_view text, const parameter& of) {
   const std::size_t slash = text.find('/');
-  rational above, below = 1;
+  number above, below = 1;
   const bool good =
       read_decimal(text.substr(0, slash), above) &&
       (slash == std::string_view::npos || read_decimal(text.substr(slash + 1), below));
-  if (!good || below == 0)
+  if (!good || below == number(0))
     throw usage_error("--replay: '" + std::string(text) + "' in " + std::string(of.name) +
                       " is no number: write 2/3 or 0.7");
-  const number value(rational(above / below));
+  const number value = above / below;
   const auto refuse = [&](const std::string& what) {
     throw usage_error("--replay: " + std::string(of.name) + " = " + std::string(text) + " is not " +
                       what);
   };
   if (of.what == quantity::whole) {
-    if (denominator(value.value()) != 1 || value < number(1) || value > number(16))
+    if (!value.whole() || value < number(1) || value > number(16))
       refuse("a whole number from 1 to 16");
   } else if (value > number(1)) {
     refuse("in [0,1]");
-  } else if (of.what == quantity::grid && denominator(number(value / grid_step).value()) != 1) {
+  } else if (of.what == quantity::grid && !(value / grid_step).whole()) {
     refuse("a multiple of 2^-24, on which splits, overlaps and floors lie here");
   }
   return value;
@@ -111,7 +109,7 @@ sample draw(const shape& names, random_stream& random) {
   return s;
 }
 
-std::string text_of(const number& x) { return x.value().str(); }
+std::string text_of(const number& x) { return x.text(); }
 
 std::string text_of(const sample& s) {
   std::string text;

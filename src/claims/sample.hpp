@@ -7,12 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "bitshade/interop/rational.hpp"
+#include "claims/number.hpp"
 #include "scene/random.hpp"
 
 namespace bitshade::claims {
-
-using number = exact_rational;
 
 /// What a number means, and so which values it may have and how it becomes simpler.
 ///

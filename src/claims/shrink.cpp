@@ -7,13 +7,8 @@
 namespace bitshade::claims {
 namespace {
 
-using boost::multiprecision::cpp_int;
-
-cpp_int top(const number& x) { return numerator(x.value()); }
-cpp_int bottom(const number& x) { return denominator(x.value()); }
-
 bool simpler(const number& a, const number& b) {
-  return std::make_tuple(bottom(a), top(a)) < std::make_tuple(bottom(b), top(b));
+  return std::make_tuple(a.below(), a.above()) < std::make_tuple(b.below(), b.above());
 }
 
 /// Every fraction in [0,1] with a denominator up to `most`; for the grid powers of two alone.
@@ -22,8 +17,8 @@ std::vector<number> small_fractions(int most, quantity what) {
   for (int d = 1; d <= most; ++d) {
     if (what == quantity::grid && (d & (d - 1)) != 0) continue;
     for (int n = 0; n <= d; ++n) {
-      const number x(rational(n, d));
-      if (bottom(x) == d) all.push_back(x);
+      const number x(n, d);
+      if (x.below() == d) all.push_back(x);
     }
   }
   return all;
@@ -31,9 +26,9 @@ std::vector<number> small_fractions(int most, quantity what) {
 
 /// The fractions that a walk down the Stern-Brocot tree towards x passes, x left out.
 void add_ancestors(const number& x, std::vector<number>& to) {
-  cpp_int a = 0, b = 1, c = 1, d = 1;  // a/b <= x <= c/d
-  for (int i = 0; i < 64 && b + d < bottom(x); ++i) {
-    const number middle(rational(a + c, b + d));
+  number a = 0, b = 1, c = 1, d = 1;  // a/b <= x <= c/d
+  for (int i = 0; i < 64 && b + d < x.below(); ++i) {
+    const number middle = (a + c) / (b + d);
     to.push_back(middle);
     if (middle < x) {
       a = a + c, b = b + d;
@@ -44,10 +39,10 @@ void add_ancestors(const number& x, std::vector<number>& to) {
 }
 
 void add_grid_neighbours(const number& x, std::vector<number>& to) {
-  for (cpp_int d = 2; d < bottom(x); d *= 2) {
-    const cpp_int n = top(x) * d / bottom(x);
-    to.emplace_back(rational(n, d));
-    to.emplace_back(rational(n + 1, d));
+  for (number d = 2; d < x.below(); d += d) {
+    const number n = (x * d).floor();
+    to.push_back(n / d);
+    to.push_back((n + 1) / d);
   }
 }
 
@@ -105,8 +100,8 @@ simplicity simplicity_of(const sample& s) {
   for (std::size_t i = 0; i < s.names().size(); ++i)
     for (const number& x : s.at_index(i)) {
       ++result.numbers;
-      result.denominators += bottom(x);
-      result.numerators += top(x);
+      result.denominators += x.below();
+      result.numerators += x.above();
     }
   return result;
 }

@@ -12,7 +12,7 @@ namespace bitshade::claims {
 /// the sum of their numerators. Every step of shrinking lowers it, so that shrinking ends.
 struct simplicity {
   std::size_t numbers = 0;
-  boost::multiprecision::cpp_int denominators = 0, numerators = 0;
+  number denominators, numerators;
 
   friend bool operator<(const simplicity& a, const simplicity& b);
 };
