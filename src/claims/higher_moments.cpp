@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bitshade/formats/round_to.hpp"
+#include "bitshade/study/bounds_visibility.hpp"
 #include "claims/footprint.hpp"
 #include "claims/laboratory.hpp"
 #include "claims/table.hpp"

@@ -42,7 +42,9 @@ const trial lit_plane{{{"t"},
                        {"overlap", quantity::grid}},
                       stays_lit};
 
-void gentle(sample& s) { s.list("slope").front() = s["slope"] / number(32); }
+void gentle(sample& s) {
+  if (s["slope"] > number(1, 32)) s.list("slope").front() = s["slope"] / number(32);
+}
 void within_overlap(sample& s) {
   gentle(s);
   s.list("slope").front() = std::min(s["slope"], s["overlap"] / s["radius"]);
@@ -64,7 +66,8 @@ const trial dark_past_split{
     stays_dark};
 
 void far_in_front(sample& s) {
-  s.list("x").front() = s["x"] * std::max(number(0), s["split"] - s["overlap"]);
+  s.list("overlap").front() = std::min(s["overlap"], s["split"]);  // as far as there is depth
+  s.list("x").front() = std::min(s["x"], s["split"] - s["overlap"]);
 }
 void faded(sample& s) {
   far_in_front(s);
@@ -116,8 +119,9 @@ outcome measure_overlaps(laboratory& lab) {
             100 * lab.picture(garden, how).figures.bleed_area, "% of receivers");
   }
   out.remarks.push_back(
-      "The overlap lets bleeding back in: occluders between s - delta and s count again, as the "
-      "garden shows, whose bench lies 0.01 in front of the split.");
+      "The overlap lets bleeding back in: occluders between s - delta and s count again. The "
+      "garden's "
+      "bench lies 0.01 in front of this split.");
   return out;
 }
 
