@@ -88,7 +88,7 @@ outcome measure(laboratory& lab) {
     out.add("beams, alpha " + brief(alpha, 1) + ": mean error in penumbrae", error);
     bleed[alpha > 0] = area, shade[alpha > 0] = error;
   }
-  out.claim("alpha = 0.6 leaves less than a tenth of the bleeding area", bleed[1] < 0.1 * bleed[0]);
+  out.claim("alpha = 0.6 leaves at most a tenth of the bleeding area", bleed[1] <= 0.1 * bleed[0]);
   out.claim("and darkens penumbrae", shade[1] < shade[0]);
   return out;
 }
