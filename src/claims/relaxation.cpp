@@ -4,13 +4,13 @@
 #include "bitshade/shadow/optimal_splits.hpp"
 #include "claims/laboratory.hpp"
 #include "claims/table.hpp"
-#include "run/splits.hpp"
+#include "run/lloyd.hpp"
 
 namespace bitshade::claims {
 namespace {
 
 lloyd_samples field_of(const frame& scene, int threads) {
-  return lloyd_samples(lloyd_samples_of(scene.depth, threads).texels);
+  return lloyd_field(scene, {}, threads).samples();
 }
 
 std::vector<double> uniform_interior(const method& m, int layers) {
