@@ -5,6 +5,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "command/scene_options.hpp"
 #include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
@@ -109,7 +110,7 @@ void animate(const animation& given) {
                            c.format + "-";
   scene_options how = given.how;
   how.time = 0;
-  check_study_memory(load_input(given.scene, how), {c});
+  check_study_memory(load_for(given.scene, how, {c}), {c});
 
   const fs::path folder = given.out;
   make_output_folder(folder);
@@ -124,7 +125,7 @@ void animate(const animation& given) {
   for (int k = 0; k < given.frames; ++k) {
     bar.at(given.scene + ", frame " + std::to_string(k));
     how.time = static_cast<double>(k) / given.frames;
-    const frame input = load_input(given.scene, how);
+    const frame input = load_for(given.scene, how, {c});
     const configuration now = follower.follow(input, how.threads);
     progress silent(false);
     const study_result done =

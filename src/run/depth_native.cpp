@@ -76,9 +76,13 @@ void run_depth_native(run_context& run) {
 
 void run_depth_exact(run_context& run) {
   const stopwatch watch(run.result.shade_seconds);
-  run.result.visibility = run.how.method == technique::hard
-                              ? hard_exact(run.scene, run.threads)
-                              : truth_pcf(run.scene, run.how, run.threads);
+  if (run.how.method == technique::hard) {
+    run.result.visibility = hard_exact(run.scene, run.threads);
+    return;
+  }
+  configuration kernel = run.how;
+  if (!takes_samples(kernel.method)) kernel.filtered.msaa = kernel.filtered.lookups = 1;
+  run.result.visibility = truth_pcf(run.scene, kernel, run.threads);
 }
 
 }  // namespace bitshade

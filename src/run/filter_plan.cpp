@@ -61,7 +61,7 @@ effect fractions_effect(const configuration& how) {
 std::vector<effect> filter_effects(const frame& scene, const configuration& how) {
   std::vector<effect> effects;
   const filtering& f = how.filtered;
-  if (f.msaa > 1 && how.method != technique::hard) effects.push_back(msaa_effect(scene, how));
+  if (f.msaa > 1 && takes_samples(how.method)) effects.push_back(msaa_effect(scene, how));
   if (how.blurred() && blurs_its_map(how.method)) {
     if (f.way == blur_way::one_pass) effects.push_back(one_pass_effect(how));
     if (f.way == blur_way::linear && f.fraction_bits > 0) effects.push_back(fractions_effect(how));

@@ -149,7 +149,7 @@ std::string label_of(const row& r) {
 
 std::string cell_key(const std::string& input, const frame& scene, const configuration& c) {
   sha256 d;
-  if (c.filtered.msaa > 1 && c.method != technique::hard) {
+  if (c.filtered.msaa > 1 && takes_samples(c.method)) {
     for (const image<float>* depth : depth_maps(scene, c.filtered.msaa))
       d.update(std::as_bytes(std::span(depth->texels)));
   }

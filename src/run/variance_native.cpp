@@ -96,7 +96,8 @@ void run_technique(run_context& run, Technique technique) {
 template <class T>
 void run_in(run_context& run) {
   variance_technique<T> usual(run.how, run.storage, run.scene.depth);
-  if (run.how.method == technique::lvsm && run.how.one_pass) {
+  // Samples are resolved a layer at a time; the bits would be the same.
+  if (run.how.method == technique::lvsm && run.how.one_pass && run.look.samples == 1) {
     run_technique<T>(run, one_pass_technique<T>(run, std::move(usual)));
   } else {
     run_technique<T>(run, std::move(usual));

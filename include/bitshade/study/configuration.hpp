@@ -144,12 +144,15 @@ inline bool stores_variance(technique t) {
   return t == technique::vsm || t == technique::savsm || t == technique::lvsm;
 }
 
-/// Whether several lookups make one light: a hard test has one, a SAT its own rectangle.
-inline bool averages_lookups(technique t) { return t != technique::hard && t != technique::savsm; }
+/// Whether a texel may be resolved from samples: a hard test and a deep map read its centre.
+inline bool takes_samples(technique t) { return t != technique::hard && t != technique::deep; }
+
+/// Whether several lookups make one light: of those, a SAT has its own rectangle.
+inline bool averages_lookups(technique t) { return takes_samples(t) && t != technique::savsm; }
 
 /// Whether what the technique stores is blurred as it is; a PCF filters answers, a SAT sums.
 inline bool blurs_its_map(technique t) {
-  return t != technique::hard && t != technique::pcf && t != technique::savsm;
+  return takes_samples(t) && t != technique::pcf && t != technique::savsm;
 }
 
 inline int configuration::channels() const {
@@ -204,7 +207,7 @@ inline std::string configuration::key() const {
       if (relaxes(splits) && !lloyd.key().empty()) add("lloyd", lloyd.key());
     }
   }
-  if (filtered.msaa > 1 && method != technique::hard) add("msaa", std::to_string(filtered.msaa));
+  if (filtered.msaa > 1 && takes_samples(method)) add("msaa", std::to_string(filtered.msaa));
   if (blurred() && method != technique::hard) {
     const bool box = filtered.shape == blur_shape::box && method != technique::savsm;
     add("blur", std::to_string(blur_taps) + "/" + (box ? "box" : detail::shortest(blur_sigma)));
