@@ -8,7 +8,7 @@ namespace bitshade::texture_kernels {
 /// Coordinates of a vector of samples in binary32.
 template <class V, grid Grid>
 [[gnu::always_inline]] inline void locate(const sample_job& job, const float* u, const float* v,
-                                          located<V, float>& at) {
+                                          located<V>& at) {
   using f = typename V::f;
   const f half = V::all(0.5f), zero = V::all(0.0f);
   const auto axis = [&](const float* p, int size, f& weight) __attribute__((always_inline)) {
@@ -23,13 +23,10 @@ template <class V, grid Grid>
     weight = V::sub(x, V::add(first, zero));
     return first;
   };
-  f fx, fy;
-  const f x = axis(u, job.width, fx), y = axis(v, job.height, fy);
-  V::store(at.fx, fx);
-  V::store(at.fy, fy);
+  const f x = axis(u, job.width, at.fx), y = axis(v, job.height, at.fy);
   const auto within = [&](f first, int size) {
-    return V::all(V::inot(V::nle(first, V::all(static_cast<float>(size - 2))))) &&
-           V::all(V::inot(V::nle(zero, first)));
+    return !V::any(V::nle(first, V::all(static_cast<float>(size - 2)))) &&
+           !V::any(V::nle(zero, first));
   };
   at.inner = within(x, job.width) && within(y, job.height);
   const auto row = V::imul(V::to_int(y), V::all_bits(static_cast<std::uint32_t>(job.width)));
@@ -76,12 +73,11 @@ class sample_rows {
   using f = typename V::f;
 
   [[gnu::always_inline]] void vector(const float* u, const float* v, float* out) const {
-    located<V, float> at;
+    located<V> at;
     locate<V, Grid>(job_, u, v, at);
     if (!at.inner) return edges(u, v, out);
-    const f fx = V::load(at.fx), fy = V::load(at.fy);
     const auto part = [&]<int Part>() __attribute__((always_inline)) {
-      put<Part>(fetch<V, Texels, Channels, Part>(texels_, job_, at.place), fx, fy, out);
+      put<Part>(fetch<V, Texels, Channels, Part>(texels_, job_, at.place), at.fx, at.fy, out);
     };
     part.template operator()<0>();
     if constexpr (Channels == 2) part.template operator()<1>();
