@@ -6,7 +6,7 @@
 namespace bitshade::texture_kernels {
 
 /// Coordinates of a vector of samples in binary32.
-template <class V, grid Grid>
+template <class V, int Channels, grid Grid>
 [[gnu::always_inline]] inline void locate(const sample_job& job, const float* u, const float* v,
                                           located<V>& at) {
   using f = typename V::f;
@@ -24,15 +24,14 @@ template <class V, grid Grid>
     return first;
   };
   const f x = axis(u, job.width, at.fx), y = axis(v, job.height, at.fy);
-  const auto within = [&](f first, int size) {
-    return !V::any(V::nle(first, V::all(static_cast<float>(size - 2)))) &&
-           !V::any(V::nle(zero, first));
-  };
-  at.inner = within(x, job.width) && within(y, job.height);
-  const auto row = V::imul(V::to_int(y), V::all_bits(static_cast<std::uint32_t>(job.width)));
-  const auto texel = V::iadd(row, V::to_int(x));
-  V::store_ints(at.place,
-                V::imul(texel, V::all_bits(static_cast<std::uint32_t>(job.channels))));
+  // As unsigned integers, so that what lies before the first texel, and NaN, is beyond the last.
+  const auto column = V::to_int(x), line = V::to_int(y);
+  const auto last = [](int size) { return V::all_bits(static_cast<std::uint32_t>(size - 2)); };
+  at.inner = job.width > 1 && job.height > 1 && !V::any(V::ugt(column, last(job.width))) &&
+             !V::any(V::ugt(line, last(job.height)));
+  const auto row = V::imul(line, V::all_bits(static_cast<std::uint32_t>(job.width)));
+  const auto texel = V::iadd(row, column);
+  V::store_ints(at.place, Channels == 2 ? V::iadd(texel, texel) : texel);
 }
 
 template <class V, blend Order>
@@ -74,7 +73,7 @@ class sample_rows {
 
   [[gnu::always_inline]] void vector(const float* u, const float* v, float* out) const {
     located<V> at;
-    locate<V, Grid>(job_, u, v, at);
+    locate<V, Channels, Grid>(job_, u, v, at);
     if (!at.inner) return edges(u, v, out);
     const auto part = [&]<int Part>() __attribute__((always_inline)) {
       put<Part>(fetch<V, Texels, Channels, Part>(texels_, job_, at.place), at.fx, at.fy, out);
