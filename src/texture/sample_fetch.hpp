@@ -7,10 +7,10 @@
 namespace bitshade::texture_kernels {
 
 /// A vector of samples: where their first texels lie, and how far they are from them.
-template <class V, class Number>
+template <class V>
 struct located {
   int place[V::width];  ///< of the upper left value, in values
-  Number fx[V::width], fy[V::width];
+  typename V::f fx, fy;
   bool inner;  ///< all four texels of all samples lie in the image, side by side
 };
 

@@ -6,9 +6,9 @@
 namespace bitshade::texture_kernels {
 
 /// Coordinates of a vector of samples in binary32.
-template <class V, grid Grid>
+template <class V, int Channels, grid Grid>
 [[gnu::always_inline]] inline void locate(const sample_job& job, const float* u, const float* v,
-                                          located<V, float>& at) {
+                                          located<V>& at) {
   using f = typename V::f;
   const f half = V::all(0.5f), zero = V::all(0.0f);
   const auto axis = [&](const float* p, int size, f& weight) __attribute__((always_inline)) {
@@ -23,19 +23,15 @@ template <class V, grid Grid>
     weight = V::sub(x, V::add(first, zero));
     return first;
   };
-  f fx, fy;
-  const f x = axis(u, job.width, fx), y = axis(v, job.height, fy);
-  V::store(at.fx, fx);
-  V::store(at.fy, fy);
-  const auto within = [&](f first, int size) {
-    return V::all(V::inot(V::nle(first, V::all(static_cast<float>(size - 2))))) &&
-           V::all(V::inot(V::nle(zero, first)));
-  };
-  at.inner = within(x, job.width) && within(y, job.height);
-  const auto row = V::imul(V::to_int(y), V::all_bits(static_cast<std::uint32_t>(job.width)));
-  const auto texel = V::iadd(row, V::to_int(x));
-  V::store_ints(at.place,
-                V::imul(texel, V::all_bits(static_cast<std::uint32_t>(job.channels))));
+  const f x = axis(u, job.width, at.fx), y = axis(v, job.height, at.fy);
+  // As unsigned integers, so that what lies before the first texel, and NaN, is beyond the last.
+  const auto column = V::to_int(x), line = V::to_int(y);
+  const auto last = [](int size) { return V::all_bits(static_cast<std::uint32_t>(size - 2)); };
+  at.inner = job.width > 1 && job.height > 1 && !V::any(V::ugt(column, last(job.width))) &&
+             !V::any(V::ugt(line, last(job.height)));
+  const auto row = V::imul(line, V::all_bits(static_cast<std::uint32_t>(job.width)));
+  const auto texel = V::iadd(row, column);
+  V::store_ints(at.place, Channels == 2 ? V::iadd(texel, texel) : texel);
 }
 
 template <class V, blend Order>
@@ -76,12 +72,11 @@ class sample_rows {
   using f = typename V::f;
 
   [[gnu::always_inline]] void vector(const float* u, const float* v, float* out) const {
-    located<V, float> at;
-    locate<V, Grid>(job_, u, v, at);
+    located<V> at;
+    locate<V, Channels, Grid>(job_, u, v, at);
     if (!at.inner) return edges(u, v, out);
-    const f fx = V::load(at.fx), fy = V::load(at.fy);
     const auto part = [&]<int Part>() __attribute__((always_inline)) {
-      put<Part>(fetch<V, Texels, Channels, Part>(texels_, job_, at.place), fx, fy, out);
+      put<Part>(fetch<V, Texels, Channels, Part>(texels_, job_, at.place), at.fx, at.fy, out);
     };
     part.template operator()<0>();
     if constexpr (Channels == 2) part.template operator()<1>();
