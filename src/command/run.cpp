@@ -22,6 +22,7 @@ void declare(CLI::App& app) {
       "2 the arguments make no sense.");
   // (one call a line, in the order of --help)
   add_study(app);
+  add_pareto(app);
   add_merge(app);
   add_claims(app);
   add_render(app);

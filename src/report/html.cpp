@@ -140,6 +140,9 @@ std::string section(const report_section& s, std::size_t number) {
   out += "</ul>\n" + still(s, "shaded", "The scene.",
                            "Lit by the light under study, with the "
                            "geometric truth as its shadow.");
+  for (const report_part& p : s.parts)
+    out += "<h3>" + escaped(p.title) + "</h3>" +
+           (p.text.empty() ? "" : "<p>" + escaped(p.text) + "</p>") + p.body;
   out +=
       "<h3>Format error, and what each configuration costs</h3>"
       "<p>The technique in the format, against itself in exact arithmetic: what the numbers alone "
@@ -153,9 +156,6 @@ std::string section(const report_section& s, std::size_t number) {
       method_table(s);
   out += "<h3>Pictures</h3>" + slider_of(s);
   out += "<h3>Plots</h3>" + plots_of(s);
-  for (const report_part& p : s.parts)
-    out += "<h3>" + escaped(p.title) + "</h3>" +
-           (p.text.empty() ? "" : "<p>" + escaped(p.text) + "</p>") + p.body;
   out +=
       "<h3>Effects: what this scene calls for</h3><p>An effect is simulated only where it can "
       "change a pixel; leaving it out gives the same bits, which <code>--verify-plan</code> "

@@ -24,7 +24,7 @@ struct report_section {
   std::map<std::string, picture_files> cells;   ///< of the cells, by key
   std::map<std::string, std::string> commands;  ///< that reproduce a cell's pictures, by key
   std::string command;                          ///< that reproduces the figures
-  std::vector<report_part> parts = {};          ///< after the plots, in this order
+  std::vector<report_part> parts = {};          ///< after the findings, in this order
 };
 
 /// What heads a report.

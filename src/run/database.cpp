@@ -11,7 +11,7 @@ namespace bitshade {
 namespace {
 
 constexpr int application_id = 0x62697473;  // "bits"
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 
 std::string sql_type(column_kind kind) {
   switch (kind) {

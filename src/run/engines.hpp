@@ -17,6 +17,7 @@ struct run_context {
   lookup look;
   int threads = 0;
   cell& result;
+  bool natural = false;  ///< texels stored as their format's bits, where there is a path for it
 };
 
 void run_variance_native(run_context& run);  ///< vsm, lvsm in binary32 or binary64

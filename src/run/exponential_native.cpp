@@ -6,6 +6,7 @@
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
+#include "run/natural.hpp"
 #include "run/variance.hpp"
 
 namespace bitshade {
@@ -71,6 +72,8 @@ class esm_technique {
 
 template <class T, class Technique>
 void run_technique(run_context& run, const Technique& technique) {
+  if constexpr (std::is_same_v<T, float>)
+    if (runs_naturally(run)) return run_natural(run, technique);
   native_engine<T, Technique> engine(run, technique);
   run_layers(engine, run);
 }

@@ -70,7 +70,8 @@ void reduce_by_power(const configuration& how, bool wide, cell& result) {
 
 }  // namespace
 
-cell run_pipeline(const frame& scene, const configuration& how, const plan& effects, int threads) {
+cell run_pipeline(const frame& scene, const configuration& how, const plan& effects, int threads,
+                  storage_speed speed) {
   const default_float_environment environment;
   const auto run = function_of(how);
   cell result;
@@ -85,10 +86,14 @@ cell run_pipeline(const frame& scene, const configuration& how, const plan& effe
   result.layer = layers.own;
   result.effects = effects.effects;
   for (const int own : layers.own) result.samples += own >= 0 ? 1 : 0;
-  run_context context{scene,   how,   effects, layers, storage, lookup_of(how, effects),
-                      threads, result};
+  run_context context{scene,   how,     effects,
+                      layers,  storage, lookup_of(how, effects),
+                      threads, result,  speed == storage_speed::natural};
   run(context);
-  if (how.powered() && !compares_depths(how.method)) reduce_by_power(how, how.exact() || storage.wide, result);
+  // Where the arithmetic's own type is the storage, there is nothing to emulate.
+  result.natural |= context.natural && !how.exact() && !storage.code;
+  if (how.powered() && !compares_depths(how.method))
+    reduce_by_power(how, how.exact() || storage.wide, result);
   result.notes.insert(result.notes.begin(), effects.notes.begin(), effects.notes.end());
   return result;
 }

@@ -24,6 +24,7 @@ struct cell {
   double map_seconds = 0;
   double shade_seconds = 0;
   double emulation_seconds = 0;
+  bool natural = false;            ///< texels lay in memory as their format's bits
   int bytes_per_texel = 0;         ///< of the map: all layers, all channels; 0 for exact
   std::size_t samples = 0;         ///< receivers shaded
   std::vector<std::string> notes;  ///< floors below the format's noise, capped exponents, ...
@@ -33,9 +34,14 @@ struct cell {
 /// Throws usage_error where the configuration contradicts itself.
 plan make_plan(const frame& scene, const configuration& how, int threads = 0);
 
-/// Runs one technique in one format; the same bits for any number of threads (0: all cores).
+/// How a format that the processor does not compute in is stored: its values in binary32, rounded
+/// between the stages, or its own bits, encoded and decoded as a device does it.
+enum class storage_speed { emulated, natural };
+
+/// Runs one technique in one format; the same bits for any number of threads (0: all cores), and
+/// at either speed. Where there is no natural path, natural is emulated, and the cell says so.
 cell run_pipeline(const frame& scene, const configuration& how, const plan& effects,
-                  int threads = 0);
+                  int threads = 0, storage_speed speed = storage_speed::emulated);
 
 /// Percentage-closer filtering of the frame's own depth map with the configuration's kernel and
 /// footprint, in exact arithmetic: the share of the footprint with x >= t, rounded once.

@@ -11,6 +11,28 @@
 
 namespace bitshade {
 
+/// A time over repeated runs: its median and quartiles.
+struct spread {
+  double median = 0, low = 0, high = 0;
+};
+
+/// Times at the natural speed of a storage: texels in memory as the format's own bits.
+struct natural_times {
+  int repeats = 0;       ///< 0: not measured
+  bool natural = false;  ///< else there is no natural path, and emulation is left out of the times
+  spread map, shade;     ///< seconds
+  /// Multiples of the reference's time (a single-layer VSM in binary32), map and shading together.
+  double relative_map = 0, relative_shade = 0;
+  spread relative;
+};
+
+/// What a graphics processor would feel of a configuration.
+struct device_cost {
+  int passes = 0;
+  double fetches_per_sample = 0;
+  double bytes_per_frame = 0;
+};
+
 /// Everything that is known of a cell, apart from its pictures.
 struct row {
   std::string key;    ///< digest of input, configuration and program: the identity of a cell
@@ -27,6 +49,10 @@ struct row {
   double map_seconds = 0;
   double shade_seconds = 0;
   double emulation_seconds = 0;
+  int repeats = 1;  ///< of the emulated run; the times above are their medians
+  spread map, shade, emulation;
+  natural_times natural;
+  device_cost device;
   int threads = 0;
   std::vector<double> splits;
   std::vector<effect> effects;
@@ -37,7 +63,7 @@ struct row {
   }
 };
 
-/// What a column holds: the same bits on every run, or a time of this one.
+/// What a column holds: the same bits on every run, or a time of this one and how it was taken.
 enum class column_kind { text, integer, real, time };
 
 /// Calls f(name, kind, value) for each column of a row, in the order of CSV, JSON and database.
@@ -74,10 +100,32 @@ void each_column(Row& r, F f) {
   f("banding", column_kind::real, m.banding);
   f("bytes_per_texel", column_kind::integer, r.bytes_per_texel);
   f("samples", column_kind::integer, r.samples);
+  f("passes", column_kind::integer, r.device.passes);
+  f("fetches_per_sample", column_kind::real, r.device.fetches_per_sample);
+  f("bytes_per_frame", column_kind::real, r.device.bytes_per_frame);
   f("threads", column_kind::time, r.threads);
+  f("repeats", column_kind::time, r.repeats);
   f("map_seconds", column_kind::time, r.map_seconds);
   f("shade_seconds", column_kind::time, r.shade_seconds);
   f("emulation_seconds", column_kind::time, r.emulation_seconds);
+  const auto quartiles = [&](const std::string& name, auto& s) {
+    f(name + "_low", column_kind::time, s.low);
+    f(name + "_high", column_kind::time, s.high);
+  };
+  quartiles("map_seconds", r.map);
+  quartiles("shade_seconds", r.shade);
+  quartiles("emulation_seconds", r.emulation);
+  auto& n = r.natural;
+  f("natural_repeats", column_kind::time, n.repeats);
+  f("natural_storage", column_kind::time, n.natural);
+  f("natural_map_seconds", column_kind::time, n.map.median);
+  quartiles("natural_map_seconds", n.map);
+  f("natural_shade_seconds", column_kind::time, n.shade.median);
+  quartiles("natural_shade_seconds", n.shade);
+  f("natural_map_relative", column_kind::time, n.relative_map);
+  f("natural_shade_relative", column_kind::time, n.relative_shade);
+  f("natural_relative", column_kind::time, n.relative.median);
+  quartiles("natural_relative", n.relative);
 }
 
 }  // namespace bitshade

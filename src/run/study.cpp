@@ -9,8 +9,10 @@
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "report/maps.hpp"
+#include "run/device_cost.hpp"
 #include "run/lookup.hpp"
 #include "run/pipeline.hpp"
+#include "run/timing.hpp"
 #include "scene/limits.hpp"
 
 namespace bitshade {
@@ -108,6 +110,32 @@ picture_files input_pictures(const frame& input, references& known, const config
           {"depth", encode_png(depth_map(input))}};
 }
 
+/// Whether a stored row was timed as often and in the way that the request asks for.
+bool timed_enough(const row& r, const study_request& request, const configuration& c) {
+  return r.repeats >= request.repeats &&
+         (!request.natural || c.exact() || r.natural.repeats >= request.repeats);
+}
+
+/// The times of a cell whose first run is done; of exact arithmetic, which no device has, once.
+void take_times(row& r, const frame& input, const configuration& c, const plan& effects,
+                const cell& done, const study_request& request) {
+  std::vector<double> map{done.map_seconds}, shade{done.shade_seconds},
+      emulation{done.emulation_seconds};
+  for (int i = 1; i < request.repeats && !c.exact(); ++i) {
+    const cell again = run_pipeline(input, c, effects, request.threads);
+    map.push_back(again.map_seconds);
+    shade.push_back(again.shade_seconds);
+    emulation.push_back(again.emulation_seconds);
+  }
+  r.repeats = c.exact() ? request.repeats : static_cast<int>(map.size());
+  r.map = spread_of(map), r.shade = spread_of(shade), r.emulation = spread_of(emulation);
+  r.map_seconds = r.map.median;
+  r.shade_seconds = r.shade.median;
+  r.emulation_seconds = r.emulation.median;
+  if (request.natural && !c.exact())
+    r.natural = time_naturally(input, c, effects, request.repeats, request.threads);
+}
+
 picture_files cell_pictures(const frame& input, const configuration& c, const cell& done,
                             const std::vector<double>& geometric, const cell& exact) {
   const int w = input.view_width, h = input.view_height;
@@ -184,7 +212,8 @@ study_result run_study(const frame& input, const study_request& request, databas
     bar.at(input.name + ", " + label_of(c));
     const std::string key = cell_key(result.input, input, c);
     if (!request.verify_plan && described) {
-      if (std::optional<row> stored = results.find(key)) {
+      std::optional<row> stored = results.find(key);
+      if (stored && timed_enough(*stored, request, c)) {
         stored->scene = input.name;
         result.rows.push_back(*stored);
         bar.step(false);
@@ -223,10 +252,9 @@ study_result run_study(const frame& input, const study_request& request, databas
     r.figures = measure(input, {done.visibility, exact.visibility, geometric, pcf, done.layer});
     r.bytes_per_texel = done.bytes_per_texel;
     r.samples = done.samples;
-    r.map_seconds = done.map_seconds;
-    r.shade_seconds = done.shade_seconds;
-    r.emulation_seconds = done.emulation_seconds;
     r.threads = request.threads;
+    r.device = device_cost_of(input, c, effects, done.bytes_per_texel);
+    take_times(r, input, c, effects, done, request);
     r.splits = done.splits;
     r.effects = done.effects;
     r.notes = done.notes;

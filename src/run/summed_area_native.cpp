@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
-#include "bitshade/formats/encode.hpp"
+#include "bitshade/arithmetic/bulk.hpp"
 #include "bitshade/formats/limits.hpp"
 #include "bitshade/texture/sat.hpp"
 #include "io/error.hpp"
@@ -40,18 +42,29 @@ void shade(run_context& run, const variance_technique<T>& technique, Mean mean) 
   });
 }
 
+/// A row's codes in the type of their sums.
+template <class T, class Code>
+void encode_row(const storage_format& storage, std::span<const T> row, std::span<Code> codes) {
+  if constexpr (std::is_same_v<T, float> && sizeof(Code) > 4) {
+    std::vector<std::uint32_t> narrow(row.size());  // binary32 never computes for wider codes
+    bulk::encode(storage.format, storage.rounding, row, std::span(narrow));
+    std::copy(narrow.begin(), narrow.end(), codes.begin());
+  } else {
+    bulk::encode(storage.format, storage.rounding, row, codes);
+  }
+}
+
 /// Norms and fixed point: sums of codes in wrapping integers, which lose nothing.
 template <class T, class Code>
 void run_codes(run_context& run, const image<T>& texels, const variance_technique<T>& technique) {
   const encoding& format = run.storage.format;
   image<Code> codes(texels.width, texels.height, 2);
   {
-    const stopwatch watch(run.result.emulation_seconds);
+    // Codes are what a device stores: at natural speed, encoding them is part of the map.
+    const stopwatch watch(run.natural ? run.result.map_seconds : run.result.emulation_seconds);
+    run.result.natural = run.natural;
     for_rows(run.threads, texels.height, [&](int y) {
-      for (std::size_t i = 0; i < texels.row_size(); ++i) {
-        codes.row(y)[i] = static_cast<Code>(
-            encode(format, static_cast<double>(texels.row(y)[i]), run.storage.rounding));
-      }
+      encode_row<T, Code>(run.storage, texels.row(y), codes.row(y));
     });
   }
   summed_area<Code> sums;
@@ -77,11 +90,17 @@ void run_sums(run_context& run, image<T> texels, const variance_technique<T>& te
                       ": ask for a smaller --size, or a format of wider range such as binary32");
   }
   summed_area<T> sums;
+  double rounding = 0;
   {
     const stopwatch watch(run.result.map_seconds);
-    sums = make_sat(std::move(texels), sat_order::running, sat_offset::none,
-                    [&](std::span<T> row) { round_row(run.storage, row); });
+    sums = make_sat(std::move(texels), sat_order::running, sat_offset::none, [&](std::span<T> row) {
+      if (!run.storage.code) return;
+      const stopwatch part(rounding);
+      round_row(run.storage, row);
+    });
   }
+  run.result.map_seconds -= rounding;
+  run.result.emulation_seconds += rounding;
   shade(run, technique, [&](const texel_box& box, int c) {
     return sum_over(sums, box, c) / static_cast<T>(box.area());
   });
@@ -98,6 +117,7 @@ void run_in(run_context& run) {
       const stopwatch watch(run.result.map_seconds);
       for_rows(run.threads, out.height, row);
     }
+    if (!run.storage.code) return;
     const stopwatch watch(run.result.emulation_seconds);
     for_rows(run.threads, out.height, [&](int y) { round_row(run.storage, out.row(y)); });
   };

@@ -8,6 +8,7 @@
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
+#include "run/natural.hpp"
 
 namespace bitshade {
 
@@ -40,6 +41,8 @@ class texel_technique {
 template <class Map>
 void run_texel_map(run_context& run, const Map& map) {
   const auto in = [&]<class T>(T) {
+    if constexpr (std::is_same_v<T, float>)
+      if (runs_naturally(run)) return run_natural(run, texel_technique<T, Map>(map));
     native_engine<T, texel_technique<T, Map>> engine(run, texel_technique<T, Map>(map));
     run_layers(engine, run);
   };

@@ -8,6 +8,7 @@
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
+#include "run/natural.hpp"
 
 namespace bitshade {
 
@@ -89,6 +90,8 @@ class one_pass_technique {
 
 template <class T, class Technique>
 void run_technique(run_context& run, Technique technique) {
+  if constexpr (std::is_same_v<T, float>)
+    if (runs_naturally(run)) return run_natural(run, std::move(technique));
   native_engine<T, Technique> engine(run, std::move(technique));
   run_layers(engine, run);
 }

@@ -5,6 +5,7 @@
 #include "io/text.hpp"
 #include "support/catch.hpp"
 #include "support/process.hpp"
+#include "support/rows.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace bitshade;
@@ -34,12 +35,7 @@ json rows_of(const outcome& o) {
 
 /// The rows of a folder, in their order, without what a clock decides.
 json timeless(const std::filesystem::path& folder) {
-  json rows = json::parse(contents(folder / "results.json")).at("rows");
-  for (json& r : rows)
-    for (auto it = r.begin(); it != r.end();)
-      it = it.key().find("seconds") != std::string::npos || it.key() == "threads" ? r.erase(it)
-                                                                                  : std::next(it);
-  return rows;
+  return without_times(json::parse(contents(folder / "results.json")).at("rows"));
 }
 
 constexpr const char* grid = R"({

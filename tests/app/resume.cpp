@@ -4,6 +4,7 @@
 
 #include "support/catch.hpp"
 #include "support/process.hpp"
+#include "support/rows.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace bitshade::test;
@@ -43,13 +44,7 @@ TEST_CASE("ten kills and a resumption give the rows of an uninterrupted run", "[
   INFO(resumed.err);
   REQUIRE(resumed.status == 0);
 
-  const auto rows = [](const outcome& o) {
-    json all = json::parse(o.out).at("rows");
-    for (json& r : all)
-      for (const char* time : {"threads", "map_seconds", "shade_seconds", "emulation_seconds"})
-        r.erase(time);
-    return all;
-  };
+  const auto rows = [](const outcome& o) { return without_times(json::parse(o.out).at("rows")); };
   CHECK(rows(resumed) == rows(whole));
   CHECK(rows(whole).size() == 36);
   // Nothing that was written aside is left, and every picture is whole.

@@ -4,6 +4,7 @@
 #include "io/text.hpp"
 #include "support/catch.hpp"
 #include "support/process.hpp"
+#include "support/rows.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace bitshade;
@@ -24,11 +25,7 @@ std::vector<std::string> with(std::vector<std::string> arguments,
 json rows_of(const outcome& o) {
   INFO(o.err);
   REQUIRE(o.status == 0);
-  json rows = json::parse(o.out).at("rows");
-  for (json& r : rows)
-    for (const char* time : {"threads", "map_seconds", "shade_seconds", "emulation_seconds"})
-      REQUIRE(r.erase(time) == 1);
-  return rows;
+  return without_times(json::parse(o.out).at("rows"));
 }
 
 }  // namespace

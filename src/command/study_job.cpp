@@ -1,0 +1,109 @@
+#include "command/study_job.hpp"
+
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "io/atomic_file.hpp"
+#include "io/build.hpp"
+#include "io/text.hpp"
+#include "report/folder.hpp"
+
+namespace bitshade::command {
+namespace {
+
+/// What heads the input in reports: sizes, and where its depths lie.
+std::string describe(const frame& input) {
+  constexpr std::size_t bins = 128;
+  std::vector<int> occluders(bins), receivers(bins);
+  const auto bin = [](double depth) {
+    return std::min(bins - 1, static_cast<std::size_t>(depth * static_cast<double>(bins)));
+  };
+  std::size_t drawn = 0, seen = 0;
+  for (const float d : input.depth.texels)
+    if (d < 1) ++drawn, ++occluders[bin(static_cast<double>(d))];
+  for (const receiver& r : input.receivers)
+    if (r.surface != 0)
+      ++seen, ++receivers[bin(std::min(1.0, std::max(0.0, static_cast<double>(r.t))))];
+  const std::string map =
+      std::to_string(input.depth.width) + "x" + std::to_string(input.depth.height);
+  const std::string view =
+      std::to_string(input.view_width) + "x" + std::to_string(input.view_height);
+  return nlohmann::ordered_json{
+      {"map", {input.depth.width, input.depth.height}},
+      {"view", {input.view_width, input.view_height}},
+      {"summary", "Depth map " + map + ", " + std::to_string(drawn) + " texels drawn; view " +
+                      view + ", " + std::to_string(seen) + " receivers."},
+      {"occluder_histogram", occluders},
+      {"receiver_histogram", receivers}}
+      .dump();
+}
+
+}  // namespace
+
+std::vector<frame> load_inputs(const study_job& job) {
+  std::vector<configuration> cells;
+  for (const asked_cell& cell : job.cells) cells.push_back(cell.what);
+  std::vector<frame> frames;
+  for (const std::string& name : job.scenes) {
+    frames.push_back(load_for(name, *job.scene, cells));
+    check_study_memory(frames.back(), cells);
+  }
+  return frames;
+}
+
+job_result run_job(const study_job& job) {
+  study_request request = job.request;
+  request.threads = job.scene->threads;
+  std::map<std::string, std::string> arguments;  // of each cell, by its configuration
+  for (const asked_cell& cell : job.cells) {
+    request.cells.push_back(cell.what);
+    arguments[cell.what.key()] = cell.arguments;
+  }
+  const std::vector<frame> frames = load_inputs(job);
+  std::string command = job.command;
+  for (const std::string& name : job.scenes) command += " " + shell_quoted(name);
+  command += job.arguments;
+
+  // Only now, with nothing left that the arguments could get wrong, is anything written.
+  make_output_folder(job.out);
+  sweep_leftovers(job.out);
+  database results(job.out / "results.sqlite");
+  job_result all;
+  all.head = {command, program_version(), compiler_description(), machine_description()};
+  progress bar;
+  bar.begin(frames.size() * request.cells.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    request.description = describe(frames[i]);
+    all.done.push_back(run_study(frames[i], request, results, bar));
+    const study_result& result = all.done.back();
+    all.computed += result.computed;
+    const std::string scene = shell_quoted(job.scenes[i]);
+    report_section s{{result.input, job.scenes[i], request.description},
+                     result.rows,
+                     results.pictures(result.input),
+                     {},
+                     {},
+                     job.command + " " + scene + job.arguments};
+    for (const row& r : result.rows) {
+      s.cells[r.key] = results.pictures(r.key);
+      s.commands[r.key] = "bitshade render " + scene + arguments.at(r.configuration);
+    }
+    all.sections.push_back(std::move(s));
+  }
+  bar.end();
+  return all;
+}
+
+void print_end(const study_job& job, const job_result& result, double seconds) {
+  std::size_t cells = 0;
+  for (const study_result& one : result.done) cells += one.rows.size();
+  std::cout << result.computed << " of " << cells << " cells computed in " << brief(seconds)
+            << " s";
+  if (result.computed < cells)
+    std::cout << ", " << cells - result.computed << " taken from results.sqlite";
+  std::cout << ".\nThe report is " << (job.out / "report.html").string()
+            << "; pictures, CSV, JSON and the database lie beside it.\n";
+}
+
+}  // namespace bitshade::command
