@@ -18,11 +18,11 @@ struct study_request {
   std::vector<configuration> cells;
   std::string description;  ///< JSON for the database: sizes, how to reproduce
   int threads = 0;
-  int repeats = 1;           ///< runs whose median is the time
-  bool natural = false;      ///< times at the storage's natural speed as well
   bool pictures = true;      ///< stored beside the figures
   bool verify_plan = false;  ///< run everything as well, and demand equal bits
   bool shaded = false;       ///< also keep pictures of the shaded scene and of its layers
+  int repeats = 1;           ///< runs whose median is the time
+  bool natural = false;      ///< times at the storage's natural speed as well
 };
 
 /// One cell run twice: with what the plan left, and with everything.
