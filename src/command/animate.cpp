@@ -128,8 +128,12 @@ void animate(const animation& given) {
     const frame input = load_for(given.scene, how, {c});
     const configuration now = follower.follow(input, how.threads);
     progress silent(false);
-    const study_result done =
-        run_study(input, {{now}, "{}", how.threads, true, false, true}, results, silent);
+    study_request request;
+    request.cells = {now};
+    request.description = "{}";
+    request.threads = how.threads;
+    request.shaded = true;
+    const study_result done = run_study(input, request, results, silent);
     const row& r = done.rows.front();
     kinds.clear();
     for (const auto& [kind, png] : results.pictures(r.key)) {

@@ -13,9 +13,8 @@
 #include "io/build.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
-#include "report/figures.hpp"
+#include "report/blame.hpp"
 #include "report/folder.hpp"
-#include "report/maps.hpp"
 #include "report/plot.hpp"
 #include "report/text_table.hpp"
 #include "run/blame.hpp"
@@ -64,42 +63,14 @@ std::string text_of(const blame& b, const configuration& c) {
   }
   const text_line whole = all(b.whole);
   lines.push_back({"all of them", whole[0], whole[1], whole[2], "", "", ""});
-  const stage_blame& worst = b.guiltiest();
   std::string out = label_of(c) + ": error against exact arithmetic, stage by stage\n" +
                     text_table(lines, {0}) + "\n";
-  const std::string sentence =
-      b.whole.rmse == 0
-          ? "No stage changes a bit of the picture."
-          : "The " + std::string(name_of(worst.which)) + " is guilty: alone it makes " +
-                percent(b.share(worst)) + " % of the summed squares; were it exact, " +
-                brief(worst.without.rmse) + " RMSE would be left of " + brief(b.whole.rmse) + ".";
-  for (const auto& line : wrap(sentence, 80)) out += line + "\n";
+  for (const auto& line : wrap(blame_sentence(b), 80)) out += line + "\n";
   return out;
-}
-
-std::string bars_of(const blame& b, const std::string& title) {
-  bar_chart chart{title, "RMSE of visibility", {}, {}};
-  for (const stage_blame& s : b.stages) {
-    chart.bars.push_back(
-        {std::string(name_of(s.which)) + " alone", {s.alone.rmse}, brief(s.alone.rmse)});
-  }
-  chart.bars.push_back({"all in the format", {b.whole.rmse}, brief(b.whole.rmse)});
-  for (const stage_blame& s : b.stages) {
-    chart.bars.push_back(
-        {"all but " + std::string(name_of(s.which)), {s.without.rmse}, brief(s.without.rmse)});
-  }
-  return svg(chart);
 }
 
 nlohmann::ordered_json figures_of(const error_figures& e) {
   return {{"rmse", e.rmse}, {"largest", e.largest}, {"p999", e.p999}, {"mean", e.signed_mean}};
-}
-
-std::vector<double> without_gaps(std::vector<double> values) {
-  for (double& v : values) {
-    if (v != v) v = 1;
-  }
-  return values;
 }
 
 void find_guilt(const options& given) {
@@ -121,32 +92,21 @@ void find_guilt(const options& given) {
   const std::string layers = c.method == technique::lvsm ? std::to_string(c.layers) : "";
   const std::string stem = file_stem(given.scene) + "-" + std::string(name_of(c.method)) + layers +
                            "-" + c.format + "-blame";
-  const auto exact = without_gaps(b.exact);
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  std::string body = figure(bars_of(b, "Errors of " + label_of(c)),
-                            caption("Each stage alone in the format, and all but it.",
-                                    "Against the same run with every stage exact.", command));
   std::string list;
-  const auto map = [&](const std::string& name, const std::vector<double>& values,
-                       const std::string& words) {
+  const auto maps = blame_maps(b, input.view_width, input.view_height);
+  for (const auto& [name, png] : maps) {
     const auto path = (folder / (stem + "-" + name + ".png")).string();
-    const std::string png =
-        encode_png(error_map(without_gaps(values), exact, input.view_width, input.view_height));
     write_file(path, png);
     files[name] = path;
     list += "  " + path + "\n";
-    body +=
-        figure("<img class=\"still\" alt=\"" + escaped(words) + "\" src=\"" + data_uri(png) + "\">",
-               caption(words, "Error of visibility against exact arithmetic.", command));
-  };
-  map("all", b.visibility, "Every stage in " + c.format);
-  for (const stage_blame& s : b.stages) {
-    map(std::string(name_of(s.which)), s.visibility,
-        "The " + std::string(name_of(s.which)) + " alone in the format");
   }
-  const report_head head{command, program_version(), compiler_description(), machine_description()};
+  const report_head head{command, program_version(), compiler_description(), machine_description(),
+                         std::to_string(given.how->seed)};
+  const report_part part = blame_part(b, maps, label_of(c), c.format, command);
   const std::string page = (folder / (stem + ".html")).string();
-  write_file(page, html_page(head, "Which stage is guilty: " + label_of(c), body));
+  write_file(page, html_page(head, part.title,
+                             "<main><p>" + escaped(part.text) + "</p>" + part.body + "</main>\n"));
   files["report"] = page;
 
   if (given.json) {

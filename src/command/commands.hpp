@@ -11,6 +11,7 @@ namespace bitshade::command {
 // (one declaration a line, in the order of --help)
 void add_study(CLI::App& app);
 void add_pareto(CLI::App& app);
+void add_advise(CLI::App& app);
 void add_merge(CLI::App& app);
 void add_claims(CLI::App& app);
 void add_render(CLI::App& app);

@@ -1,6 +1,5 @@
 // `bitshade pareto`: accuracy against time and bytes.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iostream>
 #include <memory>
 
@@ -23,15 +22,12 @@ struct options {
 };
 
 void pareto(const options& given) {
-  const auto start = std::chrono::steady_clock::now();
   const study_job& job = given.job;
   job_result result = run_job(job);
   nlohmann::ordered_json fronts = nlohmann::ordered_json::array();
   std::string text;
   for (report_section& s : result.sections) {
     const pareto_front front = pareto_of(s.rows, given.measure);
-    if (front.rows.empty())
-      throw usage_error("no device stores exact numbers: give --formats another format");
     s.parts.push_back(html_pareto(front, s.command));
     nlohmann::ordered_json one{{"input", s.input.name}};
     one.update(json_pareto(front));
@@ -48,8 +44,7 @@ void pareto(const options& given) {
     return;
   }
   std::cout << text;
-  print_end(job, result,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  print_end(job, result);
 }
 
 }  // namespace
@@ -97,12 +92,12 @@ void add_pareto(CLI::App& app) {
     const std::vector<std::string> of_the_run{"json", "threads", "out", "repeats", "measure"};
     measured({}, given->measure);
     if (job.scenes.empty()) job.scenes.push_back("garden");
-    if (job.request.repeats < 1 || job.request.repeats > 1000)
-      throw usage_error("--repeats takes 1 to 1000 runs");
+    check_repeats(job);
     job.command = "bitshade pareto";
     job.out = given->out;
     job.arguments = arguments_of(*command, {"json", "threads", "out", "repeats"});
     job.cells = cells_of(*given->cells, *command, of_the_run);
+    demand_stored(job);
     pareto(*given);
   });
 }

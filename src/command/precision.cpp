@@ -172,7 +172,7 @@ void answer(const options& given) {
   }
   if (!given.out.empty()) {
     const report_head head{command, program_version(), compiler_description(),
-                           machine_description()};
+                           machine_description(), std::to_string(given.how->seed)};
     std::string body;
     for (const report_part& part : precision_parts(found, command)) {
       body += "<h2>" + part.title + "</h2><p>" + part.text + "</p>" + part.body;

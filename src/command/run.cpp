@@ -23,6 +23,7 @@ void declare(CLI::App& app) {
   // (one call a line, in the order of --help)
   add_study(app);
   add_pareto(app);
+  add_advise(app);
   add_merge(app);
   add_claims(app);
   add_render(app);

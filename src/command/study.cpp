@@ -1,12 +1,12 @@
 // `bitshade study`: techniques x formats x layers on a scene, a mesh or a captured depth map.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
 #include "command/study_job.hpp"
+#include "command/study_parts.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "report/folder.hpp"
@@ -20,6 +20,7 @@ struct options {
   std::shared_ptr<cell_choice> cells;
   std::string out = "bitshade-out";
   bool no_pictures = false, json = false;
+  bool blame = false, precision = false;  ///< parts of the report
 };
 
 void print(const report_section& s, const study_result& result, bool verified) {
@@ -37,13 +38,20 @@ void print(const report_section& s, const study_result& result, bool verified) {
   }
   for (const std::string& f : findings(s.rows))
     for (const std::string& text : wrap(f, 80)) std::cout << text << '\n';
+  for (const report_part& p : s.parts)
+    for (const std::string& text : wrap(p.title + ". " + p.text, 80)) std::cout << text << '\n';
   std::cout << '\n';
 }
 
 void study(const options& given) {
-  const auto start = std::chrono::steady_clock::now();
   const study_job& job = given.job;
-  const job_result result = run_job(job);
+  job_result result = run_job(job);
+  for (std::size_t i = 0; i < result.sections.size(); ++i) {
+    std::vector<report_part>& parts = result.sections[i].parts;
+    if (given.blame) parts.push_back(blamed(job, result, i));
+    if (given.precision)
+      for (report_part& part : bits_needed(job, result, i)) parts.push_back(std::move(part));
+  }
   write_results(job.out, result.head, result.sections);
   if (given.json) {
     std::cout << results_json(result.head, result.sections).dump(1) << '\n';
@@ -51,8 +59,7 @@ void study(const options& given) {
   }
   for (std::size_t i = 0; i < result.sections.size(); ++i)
     print(result.sections[i], result.done[i], job.request.verify_plan);
-  print_end(job, result,
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  print_end(job, result);
 }
 
 }  // namespace
@@ -82,6 +89,10 @@ void add_study(CLI::App& app) {
                    "Runs of a cell, whose median and quartiles are its times")
       ->capture_default_str()
       ->option_text("N");
+  command->add_flag("--blame", given->blame,
+                    "Also say which stage is guilty of the largest format error");
+  command->add_flag("--precision", given->precision,
+                    "Also say how many bits the layers need, with the floor asked for");
   command->add_flag("--verify-plan", given->job.request.verify_plan,
                     "Run every effect as well, and demand the same bits");
   command->add_flag("--no-pictures", given->no_pictures,
@@ -99,15 +110,15 @@ void add_study(CLI::App& app) {
       "\"cells\": [{…}]}; its fields are the options above.");
   command->callback([given, command] {
     study_job& job = given->job;
-    const std::vector<std::string> of_the_run{"json", "verify-plan", "threads",
-                                              "out",  "no-pictures", "repeats"};
+    const std::vector<std::string> of_the_run{
+        "json", "verify-plan", "threads", "out", "no-pictures", "repeats", "blame", "precision"};
     if (job.scenes.empty()) job.scenes.push_back("garden");
-    if (job.request.repeats < 1 || job.request.repeats > 1000)
-      throw usage_error("--repeats takes 1 to 1000 runs");
+    check_repeats(job);
     job.command = "bitshade study";
     job.out = given->out;
     job.request.pictures = !given->no_pictures;
-    job.arguments = arguments_of(*command, of_the_run);
+    job.arguments = arguments_of(
+        *command, {"json", "verify-plan", "threads", "out", "no-pictures", "repeats"});
     job.cells = cells_of(*given->cells, *command, of_the_run);
     study(*given);
   });

@@ -1,19 +1,21 @@
 #include "command/study_job.hpp"
 
+#include <chrono>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.hpp"
 #include "io/build.hpp"
+#include "io/error.hpp"
 #include "io/text.hpp"
 #include "report/folder.hpp"
 
 namespace bitshade::command {
 namespace {
 
-/// What heads the input in reports: sizes, and where its depths lie.
-std::string describe(const frame& input) {
+/// What heads the input in reports: sizes, seed, and where its depths lie.
+std::string describe(const frame& input, std::uint64_t seed) {
   constexpr std::size_t bins = 128;
   std::vector<int> occluders(bins), receivers(bins);
   const auto bin = [](double depth) {
@@ -34,6 +36,7 @@ std::string describe(const frame& input) {
       {"view", {input.view_width, input.view_height}},
       {"summary", "Depth map " + map + ", " + std::to_string(drawn) + " texels drawn; view " +
                       view + ", " + std::to_string(seen) + " receivers."},
+      {"seed", seed},
       {"occluder_histogram", occluders},
       {"receiver_histogram", receivers}}
       .dump();
@@ -53,6 +56,7 @@ std::vector<frame> load_inputs(const study_job& job) {
 }
 
 job_result run_job(const study_job& job) {
+  const auto start = std::chrono::steady_clock::now();
   study_request request = job.request;
   request.threads = job.scene->threads;
   std::map<std::string, std::string> arguments;  // of each cell, by its configuration
@@ -60,7 +64,7 @@ job_result run_job(const study_job& job) {
     request.cells.push_back(cell.what);
     arguments[cell.what.key()] = cell.arguments;
   }
-  const std::vector<frame> frames = load_inputs(job);
+  std::vector<frame> frames = load_inputs(job);
   std::string command = job.command;
   for (const std::string& name : job.scenes) command += " " + shell_quoted(name);
   command += job.arguments;
@@ -70,11 +74,12 @@ job_result run_job(const study_job& job) {
   sweep_leftovers(job.out);
   database results(job.out / "results.sqlite");
   job_result all;
-  all.head = {command, program_version(), compiler_description(), machine_description()};
+  all.head = {command, program_version(), compiler_description(), machine_description(),
+              std::to_string(job.scene->seed)};
   progress bar;
   bar.begin(frames.size() * request.cells.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    request.description = describe(frames[i]);
+    request.description = describe(frames[i], job.scene->seed);
     all.done.push_back(run_study(frames[i], request, results, bar));
     const study_result& result = all.done.back();
     all.computed += result.computed;
@@ -92,18 +97,32 @@ job_result run_job(const study_job& job) {
     all.sections.push_back(std::move(s));
   }
   bar.end();
+  all.frames = std::move(frames);
+  all.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return all;
 }
 
-void print_end(const study_job& job, const job_result& result, double seconds) {
+void print_end(const study_job& job, const job_result& result) {
   std::size_t cells = 0;
   for (const study_result& one : result.done) cells += one.rows.size();
-  std::cout << result.computed << " of " << cells << " cells computed in " << brief(seconds)
+  std::cout << result.computed << " of " << cells << " cells computed in " << brief(result.seconds)
             << " s";
   if (result.computed < cells)
     std::cout << ", " << cells - result.computed << " taken from results.sqlite";
   std::cout << ".\nThe report is " << (job.out / "report.html").string()
             << "; pictures, CSV, JSON and the database lie beside it.\n";
+}
+
+void check_repeats(const study_job& job) {
+  if (job.request.repeats < 1 || job.request.repeats > 1000)
+    throw usage_error("--repeats takes 1 to 1000 runs, but not " +
+                      std::to_string(job.request.repeats));
+}
+
+void demand_stored(const study_job& job) {
+  for (const asked_cell& cell : job.cells)
+    if (!cell.what.exact()) return;
+  throw usage_error("no device stores exact numbers: give --formats another format than exact");
 }
 
 }  // namespace bitshade::command

@@ -27,7 +27,9 @@ struct job_result {
   report_head head;
   std::vector<report_section> sections;  ///< one an input
   std::vector<study_result> done;        ///< likewise
+  std::vector<frame> frames;             ///< likewise
   std::size_t computed = 0;              ///< cells that the database lacked
+  double seconds = 0;
 };
 
 /// Loads the inputs, runs the missing cells and commits each at once to OUT/results.sqlite; the
@@ -38,6 +40,11 @@ job_result run_job(const study_job& job);
 std::vector<frame> load_inputs(const study_job& job);
 
 /// "3 of 16 cells computed in 0.2 s, 13 taken from results.sqlite. The report is …"
-void print_end(const study_job& job, const job_result& result, double seconds);
+void print_end(const study_job& job, const job_result& result);
+
+/// Failure  usage_error where --repeats makes no sense.
+void check_repeats(const study_job& job);
+/// Failure  usage_error where all cells are exact: no device stores such a texel.
+void demand_stored(const study_job& job);
 
 }  // namespace bitshade::command

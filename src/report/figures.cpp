@@ -193,7 +193,7 @@ std::string depth_histogram(const report_section& s) {
 }  // namespace
 
 std::string figure(const std::string& inside, const std::string& caption_text) {
-  return "<figure>\n" + inside + "\n" + caption_text + "</figure>\n";
+  return "<figure>\n<div class=\"plot\">" + inside + "</div>\n" + caption_text + "</figure>\n";
 }
 
 std::string data_uri(const std::string& png) { return "data:image/png;base64," + base64(png); }

@@ -48,6 +48,7 @@ json results_json(const report_head& head, const std::vector<report_section>& se
   json out{{"program", "bitshade"},   {"version", head.version}, {"compiler", head.compiler},
            {"machine", head.machine}, {"command", head.command}, {"inputs", json::array()},
            {"rows", json::array()}};
+  if (!head.seed.empty()) out["seed"] = head.seed;
   for (const report_section& s : sections) {
     json input{{"digest", s.input.digest}, {"name", s.input.name}, {"command", s.command}};
     const auto info = json::parse(s.input.description, nullptr, false);

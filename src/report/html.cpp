@@ -134,7 +134,8 @@ std::string section(const report_section& s, std::size_t number) {
                     escaped(s.input.name) + "</h2>\n";
   const auto info = nlohmann::json::parse(s.input.description, nullptr, false);
   if (info.is_object() && info.contains("summary"))
-    out += "<p class=\"soft\">" + escaped(info["summary"]) + "</p>\n";
+    out += "<p class=\"soft\">" + escaped(info["summary"]) +
+           (info.contains("seed") ? " Seed " + info["seed"].dump() + "." : "") + "</p>\n";
   out += "<ul class=\"findings\">";
   for (const std::string& f : findings(s.rows)) out += "<li>" + escaped(f) + "</li>";
   out += "</ul>\n" + still(s, "shaded", "The scene.",
@@ -178,8 +179,11 @@ std::string html_page(const report_head& head, const std::string& title, const s
          escaped(head.command) + "</code>\n</header>\n" + body +
          "<footer><h2>About this report</h2><p>bitshade " + escaped(head.version) +
          ", built with " + escaped(head.compiler) + ". Times were taken on " +
-         escaped(head.machine) +
-         ". Everything but the times is the same on every machine, for any number of threads. The "
+         escaped(head.machine) + "." +
+         (head.seed.empty() ? ""
+                            : " Seed " + escaped(head.seed) +
+                                  " for whatever is random in the scenes.") +
+         " Everything but the times is the same on every machine, for any number of threads. The "
          "figures stand in results.csv and results.json beside this page, and in results.sqlite."
          "</p></footer>\n<script>" +
          std::string(page_script()) + "</script>\n</body></html>\n";

@@ -33,6 +33,7 @@ struct report_head {
   std::string version;
   std::string compiler;
   std::string machine;
+  std::string seed = {};  ///< of whatever is random in the inputs; empty: nothing is known of it
 };
 
 /// A page of its own around `body`: heading, style, script, and where its figures come from.

@@ -47,7 +47,8 @@ td.level { background: linear-gradient(to left, var(--bar) var(--level, 0%), tra
 figure { margin: 1.2rem 0; }
 figcaption { max-width: 46rem; margin-top: .4rem; }
 figcaption b { color: var(--ink); }
-svg { display: block; width: 100%; max-width: 46rem; height: auto; background: var(--card);
+.plot { overflow-x: auto; }
+svg { display: block; width: 100%; min-width: 31rem; max-width: 46rem; height: auto; background: var(--card);
   border: 1px solid var(--edge); border-radius: 6px; font: 12.5px system-ui, sans-serif; }
 svg text { fill: var(--ink); } svg .title { fill: var(--soft); }
 svg .grid { stroke: var(--grid); } svg .axis { stroke: var(--soft); }
@@ -94,7 +95,7 @@ dl.effects dt { font-weight: 600; } dl.effects dd { margin: 0; }
 @media print { body { max-width: none; padding: 0; font-size: 10pt; } .choices, nav { display: none; }
   figure, .scroll, tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
   .scroll { overflow: visible; } th, td { padding: .15rem .3rem; font-size: 7.5pt; }
-  svg, .still, .compare { max-width: 30rem; } }
+  svg, .still, .compare { min-width: 0; max-width: 30rem; } }
 )css";
 }
 

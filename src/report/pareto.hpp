@@ -28,6 +28,13 @@ struct pareto_front {
   std::vector<int> by_time, by_bytes;  ///< beaten_by() of each
 };
 
+/// Half the distance of the quartiles.
+double deviation(const spread& s);
+/// What the reference took beside a configuration: seconds that are 1.0; 1 where nothing was timed.
+double reference_seconds(const natural_times& times);
+/// Whether what beats row i in time does so by less than both times' quartiles are apart.
+bool within_spread(const pareto_front& front, std::size_t i);
+
 pareto_front pareto_of(std::span<const row> rows, const std::string& measure);
 
 /// A table of at most 80 columns, and by what the others are beaten.

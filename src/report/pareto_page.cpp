@@ -55,8 +55,9 @@ std::string table_of(const pareto_front& f) {
     };
     body +=
         table_row(word_cell(f.labels[i]) + level_cell(measured(r, f.measure)) +
-                  number(n.relative_map) + number(n.relative_shade) + number(n.relative.median) +
-                  number((n.relative.high - n.relative.low) / 2, 2) + number(n.map.median * 1e3) +
+                  number(n.relative_map.median) + number(deviation(n.relative_map), 1) +
+                  number(n.relative_shade.median) + number(deviation(n.relative_shade), 1) +
+                  number(n.relative.median) + number(deviation(n.relative), 1) + number(n.map.median * 1e3) +
                   number(n.shade.median * 1e3) + number(r.bytes_per_texel) +
                   number(r.device.bytes_per_frame / 1e6) + number(r.device.fetches_per_sample) +
                   number(r.device.passes) + by(f.by_time[i]) + by(f.by_bytes[i]) +
@@ -67,9 +68,11 @@ std::string table_of(const pareto_front& f) {
       {{"configuration", "", true},
        {"error", f.measure},
        {"map", "generation of the map, in frames of the reference"},
+       {"±", "half the distance of its quartiles"},
        {"shade", "shading of the view, in frames of the reference"},
+       {"±", "half the distance of its quartiles"},
        {"frame", "both; 1.0 is a single-layer VSM in binary32, run beside it"},
-       {"±", "half the distance of the quartiles"},
+       {"±", "half the distance of its quartiles"},
        {"ms, map", "median"},
        {"ms, shade", "median"},
        {"B/texel", "all layers and channels"},

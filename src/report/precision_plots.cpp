@@ -61,12 +61,7 @@ report_part curves_part(const precision_findings& found, const std::string& comm
     }
     bound.name = "its bound";
     p.lines.push_back(line);
-    if (colour == 0)
-      p.lines.push_back(bound);
-    else {
-      bound.name = "bound";
-      p.lines.push_back(bound);
-    }
+    p.lines.push_back(bound);
     ++colour;
     if (curve.size() > 1) {
       said.push_back(curve_name(curve.front()) + ": slope " +

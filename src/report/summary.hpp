@@ -27,7 +27,12 @@ struct effect_summary {
 /// The effects of all rows of an input, those with equal evidence joined.
 std::vector<effect_summary> effects_of(std::span<const row> rows);
 
-/// The findings in sentences, the most useful first; each is computed from the rows.
+/// "Two uniform unorm16 layers match a binary32 VSM on this scene to within …": of the VSMs and
+/// LVSMs in narrower formats the cheapest whose picture is that of a single-layer VSM in binary32 to
+/// within a step of an 8-bit display, or else the nearest; empty where there is none.
+std::string headline(std::span<const row> rows);
+
+/// The findings in sentences, the headline first; each is computed from the rows.
 std::vector<std::string> findings(std::span<const row> rows);
 
 }  // namespace bitshade

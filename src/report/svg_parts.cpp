@@ -39,13 +39,34 @@ std::string escaped(const std::string& words) {
 namespace svg_parts {
 namespace {
 
-/// A multiple of a round step without the dust of its sums: "0.3", not "0.30000000000000004".
+/// A multiple of a round step without the dust of its sums and without idle zeros: "0.3", not
+/// "0.30000000000000004"; "1e-3", not "1.000e-3".
 std::string tidy(double t) {
-  std::string text = brief(t, 4);
-  if (text.find('.') == std::string::npos || text.find('e') != std::string::npos) return text;
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text;
+  std::string text = brief(t, 4), power;
+  if (const auto e = text.find('e'); e != std::string::npos)
+    power = text.substr(e), text.erase(e);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text + power;
+}
+
+/// Room that a tick's label needs, in a drawing's units: wide along x, high along y.
+double room_of(double from, double to) { return to > from ? 56 : 26; }
+
+/// The largest of 1, 2 and 5 times a power of ten that is at most v, for v > 0.
+double round_down(double v) {
+  const double decade = std::pow(10, std::floor(std::log10(v)));
+  const double digit = v / decade * (1 + 1e-12);
+  return decade * (digit >= 5 ? 5 : digit >= 2 ? 2 : 1);
+}
+double round_up(double v) {
+  const double down = round_down(v);
+  if (down >= v * (1 - 1e-12)) return down;
+  const double decade = std::pow(10, std::floor(std::log10(down) + 1e-9));
+  const double digit = down / decade;
+  return decade * (digit < 1.5 ? 2 : digit < 3 ? 5 : 10);
 }
 
 std::string power(double e) {
@@ -132,14 +153,19 @@ scale::scale(const axis& a, std::vector<double> values, double from, double to)
       if (v > 0) low_ = std::min(low_, v), high_ = std::max(high_, v);
     }
     if (high_ == 0) low_ = high_ = 1;
-    if (a.ticks.empty()) {
+    if (!a.ticks.empty()) {
+      low_ = std::log10(low_) - 0.06, high_ = std::log10(high_) + 0.06;
+      for (const double t : a.ticks) ticks_.push_back({place_log(std::log10(t)), shortest(t)});
+    } else if (high_ < 100 * low_) {  // within two decades, their parts
+      const double least = round_down(low_), most = round_up(std::max(high_, 1.5 * low_));
+      low_ = std::log10(least), high_ = std::log10(most);
+      for (double t = least; t < most * 1.5; t = round_up(t * 1.5))
+        ticks_.push_back({place_log(std::log10(t)), tidy(t)});
+    } else {
       low_ = std::floor(std::log10(low_));
       high_ = std::max(std::ceil(std::log10(high_)), low_ + 1);
       const int step = high_ - low_ > 8 ? 2 : 1;
       for (double e = low_; e <= high_; e += step) ticks_.push_back({place_log(e), power(e)});
-    } else {
-      low_ = std::log10(low_) - 0.06, high_ = std::log10(high_) + 0.06;
-      for (const double t : a.ticks) ticks_.push_back({place_log(std::log10(t)), shortest(t)});
     }
     if (zero_) ticks_.push_back({from_, "0"});
     return;
@@ -147,10 +173,10 @@ scale::scale(const axis& a, std::vector<double> values, double from, double to)
   low_ = 0;
   high_ = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
   if (!(high_ > 0)) high_ = 1;
-  double step = std::pow(10, std::floor(std::log10(high_)));
-  while (high_ / step < 4) step /= 2;
-  high_ = std::ceil(high_ / step) * step;
-  for (double t = 0; t <= high_ * 1.0001; t += step) ticks_.push_back({place(t), tidy(t)});
+  const double most = std::max(2.0, std::floor(std::fabs(to - from) / room_of(from, to)));
+  const double step = round_up(high_ / most);
+  high_ = std::ceil(high_ / step * (1 - 1e-12)) * step;
+  for (int i = 0; i * step <= high_ * 1.0001; ++i) ticks_.push_back({place(i * step), tidy(i * step)});
 }
 
 double scale::place(double v) const {

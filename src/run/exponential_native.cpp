@@ -19,15 +19,10 @@ class evsm_technique {
  public:
   evsm_technique(const run_context& run, const evsm_constants& constants)
       : how_(run.how), constants_(constants), four_(run.how.method == technique::evsm4) {
-    if (!run.how.noise_floor) return;
-    // The largest warped depth bounds the noise at every other one.
-    const int roundings = roundings_of(run.how, run.scene.depth);
-    const auto needed = [&](double w) {
-      return static_cast<T>(
-          floor_for(warped_noise(run.storage.format, w, roundings), tolerated_error));
-    };
-    noise_[0] = needed(positive_warp(1.0, constants));
-    noise_[1] = needed(1.0);
+    const auto floors =
+        warped_noise_floors(run.how, run.storage, run.scene.depth, constants);
+    noise_[0] = static_cast<T>(floors[0]);
+    noise_[1] = static_cast<T>(floors[1]);
   }
 
   int channels() const { return four_ ? 4 : 2; }

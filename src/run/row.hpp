@@ -21,9 +21,9 @@ struct natural_times {
   int repeats = 0;       ///< 0: not measured
   bool natural = false;  ///< else there is no natural path, and emulation is left out of the times
   spread map, shade;     ///< seconds
-  /// Multiples of the reference's time (a single-layer VSM in binary32), map and shading together.
-  double relative_map = 0, relative_shade = 0;
-  spread relative;
+  /// Multiples of the time that the reference, a single-layer VSM in binary32, takes for a frame:
+  /// of the map, of shading, of both.
+  spread relative_map, relative_shade, relative;
 };
 
 /// What a graphics processor would feel of a configuration.
@@ -44,6 +44,7 @@ struct row {
   std::string configuration;  ///< configuration::key()
   std::string version;        ///< of the program, with its build
   measures figures;
+  error_figures vsm_difference;  ///< from the picture of a single-layer VSM in binary32
   int bytes_per_texel = 0;
   std::size_t samples = 0;
   double map_seconds = 0;
@@ -90,6 +91,7 @@ void each_column(Row& r, F f) {
   errors("method_pcf_error", m.method_pcf);
   errors("format_error", m.format);
   errors("total_error", m.total);
+  errors("vsm_difference", r.vsm_difference);
   f("receivers", column_kind::integer, m.receivers);
   f("bleed_area", column_kind::real, m.bleed_area);
   f("bleed_integral", column_kind::real, m.bleed_integral);
@@ -122,8 +124,10 @@ void each_column(Row& r, F f) {
   quartiles("natural_map_seconds", n.map);
   f("natural_shade_seconds", column_kind::time, n.shade.median);
   quartiles("natural_shade_seconds", n.shade);
-  f("natural_map_relative", column_kind::time, n.relative_map);
-  f("natural_shade_relative", column_kind::time, n.relative_shade);
+  f("natural_map_relative", column_kind::time, n.relative_map.median);
+  quartiles("natural_map_relative", n.relative_map);
+  f("natural_shade_relative", column_kind::time, n.relative_shade.median);
+  quartiles("natural_shade_relative", n.relative_shade);
   f("natural_relative", column_kind::time, n.relative.median);
   quartiles("natural_relative", n.relative);
 }

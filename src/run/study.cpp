@@ -60,6 +60,16 @@ class references {
     }
     return exact_;
   }
+  /// The picture of a single-layer VSM in binary32 with the configuration's filter.
+  const std::vector<double>& vsm(const configuration& c) {
+    const configuration reference = reference_of(c);
+    if (vsm_key_ != reference.key()) {
+      vsm_ = run_pipeline(input_, reference, make_plan(input_, reference, threads_), threads_)
+                 .visibility;
+      vsm_key_ = reference.key();
+    }
+    return vsm_;
+  }
 
  private:
   void prepare(const configuration& c) {
@@ -75,8 +85,8 @@ class references {
 
   const frame& input_;
   int threads_;
-  std::string kernel_, exact_key_;
-  std::vector<double> geometric_, pcf_;
+  std::string kernel_, exact_key_, vsm_key_;
+  std::vector<double> geometric_, pcf_, vsm_;
   cell exact_;
 };
 
@@ -250,6 +260,7 @@ study_result run_study(const frame& input, const study_request& request, databas
     const cell& exact = known.exact(c);
     const auto &geometric = known.geometric(c), &pcf = known.pcf(c);
     r.figures = measure(input, {done.visibility, exact.visibility, geometric, pcf, done.layer});
+    r.vsm_difference = compare(done.visibility, known.vsm(c));
     r.bytes_per_texel = done.bytes_per_texel;
     r.samples = done.samples;
     r.threads = request.threads;

@@ -49,8 +49,8 @@ natural_times time_naturally(const frame& scene, const configuration& how, const
   }
   times.map = spread_of(map);
   times.shade = spread_of(shade);
-  times.relative_map = spread_of(relative_map).median;
-  times.relative_shade = spread_of(relative_shade).median;
+  times.relative_map = spread_of(relative_map);
+  times.relative_shade = spread_of(relative_shade);
   times.relative = spread_of(relative);
   return times;
 }

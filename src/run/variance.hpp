@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
 #include "bitshade/formats/decode.hpp"
 #include "bitshade/shadow/chebyshev.hpp"
+#include "bitshade/shadow/evsm.hpp"
 #include "bitshade/shadow/moments.hpp"
 #include "bitshade/study/bounds.hpp"
 #include "bitshade/study/bounds_visibility.hpp"
@@ -44,6 +46,20 @@ inline double variance_noise(const configuration& how, const storage_format& sto
 inline double noise_floor(const configuration& how, const storage_format& storage,
                           const image<float>& depth) {
   return how.noise_floor ? floor_for(variance_noise(how, storage, depth), tolerated_error) : 0.0;
+}
+
+/// The same for both warps of an EVSM, in their units squared: the largest warped depth bounds the
+/// noise at every other one.
+inline std::array<double, 2> warped_noise_floors(const configuration& how,
+                                                 const storage_format& storage,
+                                                 const image<float>& depth,
+                                                 const evsm_constants& constants) {
+  if (!how.noise_floor) return {0, 0};
+  const int roundings = roundings_of(how, depth);
+  const auto needed = [&](double w) {
+    return floor_for(warped_noise(storage.format, w, roundings), tolerated_error);
+  };
+  return {needed(positive_warp(1.0, constants)), needed(1.0)};
 }
 
 template <class T>
