@@ -39,7 +39,8 @@ void print(const report_section& s, const study_result& result, bool verified) {
   for (const std::string& f : findings(s.rows))
     for (const std::string& text : wrap(f, 80)) std::cout << text << '\n';
   for (const report_part& p : s.parts)
-    for (const std::string& text : wrap(p.title + ". " + p.text, 80)) std::cout << text << '\n';
+    if (!p.finding.empty())
+      for (const std::string& text : wrap(p.finding, 80)) std::cout << text << '\n';
   std::cout << '\n';
 }
 

@@ -12,6 +12,28 @@
 #include "report/precision.hpp"
 
 namespace bitshade::command {
+namespace {
+
+/// "A unorm's bits that keep every visibility within 0.00392, with a floor of 1e-5: 1 layer 25, ..."
+std::string sentence_of(const precision_findings& found) {
+  std::string text = "Bits of a unorm that keep every visibility within " + brief(found.tolerated);
+  if (!found.curves.empty()) {
+    const auto& curve = found.curves.front();
+    text += ", whatever the footprint:";
+    for (std::size_t i = 0; i < curve.size(); ++i)
+      text += (i ? ", " : " ") + std::to_string(curve[i].predicted_whole) + " for " +
+              std::to_string(curve[i].layers) + (curve[i].layers == 1 ? " layer" : " layers");
+  }
+  text += "; on this scene:";
+  for (std::size_t i = 0; i < found.on_scene.size(); ++i) {
+    const auto& s = found.on_scene[i];
+    text += (i ? ", " : " ") + (s.found == 0 ? "none" : std::to_string(s.found)) + " for " +
+            std::to_string(s.layers);
+  }
+  return text + ".";
+}
+
+}  // namespace
 
 report_part blamed(const study_job& job, const job_result& result, std::size_t input) {
   std::vector<std::pair<double, const asked_cell*>> cells;
@@ -86,7 +108,9 @@ std::vector<report_part> bits_needed(const study_job& job, const job_result& res
     found.on_scene.push_back(bit_search::search_scene(result.frames[input], c, stage::store,
                                                       found.tolerated, job.scene->threads));
   }
-  return precision_parts(found, command);
+  std::vector<report_part> parts = precision_parts(found, command);
+  parts.front().finding = sentence_of(found);
+  return parts;
 }
 
 }  // namespace bitshade::command

@@ -38,6 +38,14 @@ std::string with_unit(double value, const std::string& cost) {
   return brief(value) + " of the reference's time";
 }
 
+/// "errs 2.50 x too much", "errs 0.44 % too much".
+std::string why_wrong(double error, double most) {
+  if (most == 0) return "errs";
+  const double ratio = error / most;
+  return "errs " + (ratio < 1.1 ? brief((ratio - 1) * 100, 2) + " %" : brief(ratio) + " x") +
+         " too much";
+}
+
 /// What a configuration that keeps the error costs beyond the cheapest.
 std::string why_dearer(const row& r, const row& best, const std::string& cost) {
   const double mine = cost_of(r, cost), least = cost_of(best, cost);
@@ -81,9 +89,7 @@ advice advise(std::span<const row> rows, const advice_question& question) {
             [&](const advised& a, const advised& b) { return rank(a) < rank(b); });
   for (advised& a : found.order) {
     if (!a.keeps)
-      a.why = question.most_error > 0
-                  ? "errs " + brief(error(a.row) / question.most_error, 3) + " x too much"
-                  : "errs";
+      a.why = why_wrong(error(a.row), question.most_error);
     else
       a.why = &a == &found.order.front()
                   ? "the cheapest"

@@ -1,5 +1,7 @@
 #include "report/blame.hpp"
 
+#include <algorithm>
+
 #include "io/text.hpp"
 #include "report/figures.hpp"
 #include "report/html_table.hpp"
@@ -71,11 +73,16 @@ report_part blame_part(const blame& b, const std::vector<std::pair<std::string, 
   report_part part;
   part.title = "Which stage is guilty: " + label;
   part.text = blame_sentence(b);
+  part.finding = "Of the format error of " + label + ", stage by stage: " + part.text;
   part.body = figure(bars_of(b, "Errors of " + label + ", stage by stage"),
                      caption("Each stage alone in the format, and all but it.",
                              "Against the same run with every stage exact.", command)) +
               table_of(b);
   for (const auto& [name, png] : maps) {
+    const auto at = std::find_if(b.stages.begin(), b.stages.end(), [&](const stage_blame& s) {
+      return name == std::string(name_of(s.which));
+    });
+    if (at != b.stages.end() && at->alone.rmse == 0) continue;  // an empty map
     const std::string words = name == "all" ? "Every stage in " + format
                                             : "The " + name + " alone in the format";
     part.body +=

@@ -14,7 +14,7 @@ std::string plain_name(const row& r) {
   std::string technique;
   for (const char c : r.technique)
     technique += c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
-  if (r.technique == "hard") technique = "The hard test";
+  if (r.technique == "hard") technique = "the hard test";
   if (r.technique != "lvsm") return technique + " in " + r.format;
   return technique + " with " + std::to_string(r.layers) +
          (r.layers == 1 ? " layer in " : " layers in ") + r.format;
@@ -188,7 +188,9 @@ std::vector<std::string> findings(std::span<const row> rows) {
   std::vector<std::string> out;
   if (rows.empty()) return out;
   const auto add = [&](std::string sentence) {
-    if (!sentence.empty()) out.push_back(std::move(sentence));
+    if (sentence.empty()) return;
+    if (sentence[0] >= 'a' && sentence[0] <= 'z') sentence[0] = static_cast<char>(sentence[0] - 32);
+    out.push_back(std::move(sentence));
   };
   const row_names name_of(rows);
   add(headline(rows));

@@ -138,6 +138,8 @@ std::string section(const report_section& s, std::size_t number) {
            (info.contains("seed") ? " Seed " + info["seed"].dump() + "." : "") + "</p>\n";
   out += "<ul class=\"findings\">";
   for (const std::string& f : findings(s.rows)) out += "<li>" + escaped(f) + "</li>";
+  for (const report_part& p : s.parts)
+    if (!p.finding.empty()) out += "<li>" + escaped(p.finding) + "</li>";
   out += "</ul>\n" + still(s, "shaded", "The scene.",
                            "Lit by the light under study, with the "
                            "geometric truth as its shadow.");

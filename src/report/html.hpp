@@ -14,6 +14,7 @@ struct report_part {
   std::string title;
   std::string text;  ///< what is seen, in words
   std::string body;  ///< HTML: sortable_table()s (html_table.hpp) and figure()s (figures.hpp)
+  std::string finding = {};  ///< one sentence for the summary; empty: it adds none
 };
 
 /// One input of a study with everything that is shown of it.

@@ -88,11 +88,23 @@ std::string table_of(const pareto_front& f) {
       body);
 }
 
+std::string front_in_words(const pareto_front& f) {
+  const auto list = [&](const std::vector<int>& by) {
+    std::string names;
+    for (std::size_t i = 0; i < by.size(); ++i)
+      if (by[i] < 0) names += (names.empty() ? "" : "; ") + f.labels[i];
+    return names;
+  };
+  return "Nothing has less error (" + f.measure + ") for no more time than: " + list(f.by_time) +
+         "; nor for no more bytes a texel than: " + list(f.by_bytes) + ".";
+}
+
 }  // namespace
 
 report_part html_pareto(const pareto_front& f, const std::string& command) {
   report_part part;
   part.title = "Accuracy against time";
+  part.finding = front_in_words(f);
   part.text =
       "Every configuration ran with its texels in memory as the format's own bits, decoded when "
       "loaded and encoded when stored. Times are multiples of a frame of a single-layer VSM in "

@@ -100,8 +100,8 @@ std::string of_variance(const configuration& how, const shader_constants& c) {
       out += "  while (layer < LAYERS - 1 && SPLIT[layer] < depth) ++layer;\n";
   }
   out += "  vec2 m = texture(map, " + std::string(layered ? "vec3(uv, float(layer))" : "uv") +
-         ").xy;\n  return finished(chebyshev(m.x, " + variance + ", " + x + ", FLOOR" + at +
-         "));\n}\n";
+         ").xy;\n  float x = " + x + ", variance = " + variance + ";\n" +
+         "  return finished(chebyshev(m.x, variance, x, FLOOR" + at + "));\n}\n";
   return out;
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("pareto's tables fit a page, and say what beats what", "[app]") {
   REQUIRE(o.status == 0);
   for (const std::string& line : split(o.out, '\n')) {
     CAPTURE(line);
-    CHECK(columns(line) <= 80);
+    if (!line.starts_with("The report is ")) CHECK(columns(line) <= 80);  // a path
   }
   for (const char* part : {"against time", "emulation*", "against what a GPU feels", "passes",
                            "front", "Beaten", "single-layer VSM in binary32"}) {
