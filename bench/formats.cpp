@@ -133,14 +133,17 @@ int main(int argc, char** argv) {
 
   const struct { const char* name; rounding direction; } directions[] = {
       {"away", rounding::nearest_away}, {"zero", rounding::toward_zero}, {"up", rounding::up},
-      {"odd", rounding::to_odd}, {"stochastic", rounding::stochastic}};
-  limits("directed and stochastic, in cache", unit_inputs(in_cache), nullptr);
-  for (const char* name : {"binary16", "bfloat16", "fp8_e4m3", "e9m6", "unorm16"}) {
-    for (const auto& d : directions) {
-      const encoding e = *parse_encoding(name);
-      for (const auto set : {instruction_set::avx512, instruction_set::avx2}) {
-        make.ours("directed and stochastic, in cache", std::string(name) + " " + d.name, e,
-                  {.direction = d.direction}, set, range_inputs(e, in_cache), "raw F16C loop", 4);
+      {"down", rounding::down}, {"odd", rounding::to_odd}, {"stochastic", rounding::stochastic}};
+  for (const bool whole : {false, true}) {
+    const std::string group = whole ? "directed, whole range, in cache" : "directed, [0,1), in cache";
+    limits(group, unit_inputs(in_cache), nullptr);
+    for (const char* name : {"binary16", "bfloat16", "fp8_e4m3", "e9m6", "unorm16"}) {
+      for (const auto& d : directions) {
+        const encoding e = *parse_encoding(name);
+        const auto in = whole ? range_inputs(e, in_cache) : unit_inputs(in_cache);
+        for (const auto set : {instruction_set::avx512, instruction_set::avx2}) {
+          make.ours(group, std::string(name) + " " + d.name, e, {.direction = d.direction}, set, in, "raw F16C loop", 4);
+        }
       }
     }
   }

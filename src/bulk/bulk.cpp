@@ -70,8 +70,10 @@ chosen choose_native(const encoding& e, const rules& k, request r, instruction_s
 
 void run_chosen(const chosen& c, const plan& p, const void* in, void* out, std::size_t n) {
   if (c.wants == setting::any) return c.run(p, in, out, n);
-  const float_environment environment(c.wants == setting::toward_zero ? float_environment::direction::toward_zero
-                                                                      : float_environment::direction::nearest);
+  constexpr float_environment::direction directions[] = {
+      float_environment::direction::nearest, float_environment::direction::down, float_environment::direction::up,
+      float_environment::direction::toward_zero};
+  const float_environment environment(directions[static_cast<int>(c.wants)]);
   c.run(p, in, out, n);
 }
 

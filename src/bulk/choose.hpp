@@ -43,6 +43,19 @@ chosen with_code(char letter, F f) {
   return {};
 }
 
+template <class V, rounding D, class Io, class Step>
+chosen value_loop() {
+  return {round_values<V, D, Io, Step>, Step::wants};
+}
+
+template <class V, rounding D, ends Ends, class Io>
+chosen choose_narrow(const plan& p) {
+  if constexpr (D == rounding::stochastic) {
+    if (p.random_bits < V::fraction_bits) return value_loop<V, D, Io, narrow_value<V, D, Ends, true>>();
+  }
+  return value_loop<V, D, Io, narrow_value<V, D, Ends>>();
+}
+
 template <class V, reach Reach, class Io>
 chosen choose_round_binary(const plan& p) {
   const lane_numbers& n = sizeof(typename V::word) == 4 ? p.single : p.wide;
@@ -55,14 +68,13 @@ chosen choose_round_binary(const plan& p) {
     constexpr rounding D = decltype(d)::value;
     if (!fast) return {round_binary<V, Reach, D, Io>, setting_of(D)};
     if constexpr (Reach != reach::narrow) {
-      return {round_values<V, D, Io, shared_exponent_value<V, D, Reach == reach::wider>>, setting_of(D)};
-    } else if (D == rounding::stochastic && p.random_bits < V::fraction_bits) {
-      return {ieee ? round_values<V, D, Io, narrow_value<V, D, true, D == rounding::stochastic>>
-                   : round_values<V, D, Io, narrow_value<V, D, false, D == rounding::stochastic>>, setting_of(D)};
-    } else if (ieee) {
-      return {round_values<V, D, Io, narrow_value<V, D, true>>, setting_of(D)};
+      return value_loop<V, D, Io, shared_exponent_value<V, D, Reach == reach::wider>>();
+    } else if (ieee && n.natural_overflow) {
+      return choose_narrow<V, D, ends::natural, Io>(p);
+    } else if (!ieee && n.natural_overflow) {
+      return choose_narrow<V, D, ends::nan, Io>(p);
     } else {
-      return {round_values<V, D, Io, narrow_value<V, D, false>>, setting_of(D)};
+      return choose_narrow<V, D, ends::any, Io>(p);
     }
   });
 }

@@ -9,23 +9,24 @@
 
 namespace bitshade::bulk {
 
-/// To nearest or toward zero, subnormals kept, no traps; the destructor restores what was there. Exception flags
-/// may be left raised, as any arithmetic leaves them.
+/// One rounding direction, subnormals kept, no traps; the destructor restores what was there. Exception flags may be
+/// left raised, as any arithmetic leaves them.
 class float_environment {
  public:
-  enum class direction { nearest, toward_zero };
+  enum class direction { nearest, down, up, toward_zero };  ///< in the order of MXCSR's field
 
   explicit float_environment(direction d) {
 #if defined(__SSE2__)
-    constexpr unsigned all_masked = 0x1f80, toward_zero = 0x6000;
-    const unsigned wanted = all_masked | (d == direction::toward_zero ? toward_zero : 0);
+    constexpr unsigned all_masked = 0x1f80, direction_field = 0x2000;
+    const unsigned wanted = all_masked | direction_field * static_cast<unsigned>(d);
     saved_ = _mm_getcsr();
     // Writing the register stalls, and most callers have the wanted settings already.
     changed_ = (saved_ & ~flags) != wanted;
     if (changed_) _mm_setcsr(wanted);
 #else
     std::feholdexcept(&saved_);
-    std::fesetround(d == direction::toward_zero ? FE_TOWARDZERO : FE_TONEAREST);
+    constexpr int directions[] = {FE_TONEAREST, FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO};
+    std::fesetround(directions[static_cast<int>(d)]);
 #endif
   }
   ~float_environment() {

@@ -52,6 +52,7 @@ struct lanes32 : words {
   static f sqrt(f a) { return _mm256_sqrt_ps(a); }
   static f fma(f a, f b, f c) { return _mm256_fmadd_ps(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm256_fnmadd_ps(a, b, c); }
+  static f fms(f a, f b, f c) { return _mm256_fmsub_ps(a, b, c); }
   /// a + b to odd: where inexact, the odd one of the two neighbours. The error of the sum to nearest says whether
   /// and on which side.
   static f add_to_odd(f a, f b) {
@@ -165,6 +166,7 @@ struct lanes64 : words {
   static f mul(f a, f b) { return _mm256_mul_pd(a, b); }
   static f fma(f a, f b, f c) { return _mm256_fmadd_pd(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm256_fnmadd_pd(a, b, c); }
+  static f fms(f a, f b, f c) { return _mm256_fmsub_pd(a, b, c); }
   static f max(f a, f b) { return _mm256_max_pd(a, b); }
   static f min(f a, f b) { return _mm256_min_pd(a, b); }
   static f as_single(f a) { return _mm256_cvtps_pd(_mm256_cvtpd_ps(a)); }

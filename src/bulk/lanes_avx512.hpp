@@ -51,6 +51,7 @@ struct lanes32 : words {
   static f sqrt(f a) { return _mm512_sqrt_ps(a); }
   static f fma(f a, f b, f c) { return _mm512_fmadd_ps(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm512_fnmadd_ps(a, b, c); }
+  static f fms(f a, f b, f c) { return _mm512_fmsub_ps(a, b, c); }
   /// a + b to odd: where inexact, the odd one of the two neighbours.
   static f add_to_odd(f a, f b) {
     const f below = _mm512_add_round_ps(a, b, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
@@ -165,6 +166,7 @@ struct lanes64 : words {
   static f mul(f a, f b) { return _mm512_mul_pd(a, b); }
   static f fma(f a, f b, f c) { return _mm512_fmadd_pd(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm512_fnmadd_pd(a, b, c); }
+  static f fms(f a, f b, f c) { return _mm512_fmsub_pd(a, b, c); }
   static f max(f a, f b) { return _mm512_max_pd(a, b); }
   static f min(f a, f b) { return _mm512_min_pd(a, b); }
   static f as_single(f a) { return _mm512_cvtps_pd(_mm512_cvtpd_ps(a)); }

@@ -36,6 +36,9 @@ struct lanes32 {
   static f mul(f a, f b) { return _mm_mul_ps(a, b); }
   static f div(f a, f b) { return _mm_div_ps(a, b); }
   static f sqrt(f a) { return _mm_sqrt_ps(a); }
+  // The second operand where either is NaN.
+  static f max(f a, f b) { return _mm_max_ps(a, b); }
+  static f min(f a, f b) { return _mm_min_ps(a, b); }
 
   static i and_(i a, i b) { return _mm_and_si128(a, b); }
   static i or_(i a, i b) { return _mm_or_si128(a, b); }

@@ -2,9 +2,11 @@
 // so that no two files compile the same function with different flags.
 #pragma once
 
+#include "bulk/binary_step.hpp"
+#include "bulk/narrow_value.hpp"
 #include "bulk/norm_value.hpp"
 #include "bulk/random_block.hpp"
-#include "bulk/value_step.hpp"
+#include "bulk/shared_exponent_value.hpp"
 
 namespace bitshade::bulk_kernels {
 
@@ -71,10 +73,11 @@ void round_values(const plan& p, const void* in, void* out, std::size_t n) {
   const Step step(p);
   if constexpr (D == rounding::stochastic) {
     over_random<V, Io, Io>(p, in, out, n, [&](const Io* a, Io* b, typename V::i random) {
-      bool undecided = false;
+      typename V::m undecided{};
       const auto v = step(V::bits(V::load(a)), random, undecided);
-      if (!undecided) V::store(b, V::value(v));
-      return !undecided;
+      const bool decided = !V::any(undecided);
+      if (decided) V::store(b, V::value(v));
+      return decided;
     });
   } else {
     over<V, Io, Io>(in, out, n, [&](const Io* a, Io* b) { V::store(b, V::value(step(V::bits(V::load(a))))); });

@@ -56,9 +56,10 @@ bulk_kernels::lane_numbers numbers(const encoding& e, const bulk_kernels::plan& 
   // Half a unit more still rounds back, if the tie goes to an even largest number.
   n.limit = n.largest;
   if (unit > 0) n.limit += (std::uint64_t{1} << (unit - 1)) - (p.max_code & 1);
-  n.natural_overflow = n.infinite == infinity;
+  const std::uint64_t beyond = e.special == specials::ieee ? infinity : quiet;
+  n.natural_overflow = n.infinite == beyond;
   for (int s = 0; s < 2; ++s) {
-    n.natural_overflow = n.natural_overflow && n.overflow[s] == (leaves(p.direction, s != 0) ? infinity : n.largest);
+    n.natural_overflow = n.natural_overflow && n.overflow[s] == (leaves(p.direction, s != 0) ? beyond : n.largest);
   }
   return n;
 }
@@ -113,6 +114,8 @@ void make_plan(bulk_kernels::plan& p, const encoding& e, const rules& r, std::ui
   }
   p.wide_step = 1 / p.scale;
   p.single_step = static_cast<float>(p.wide_step);
+  const bool exact = p.norm == norm_decode::exact;
+  p.single_rest = exact ? static_cast<float>(p.wide_step - double{p.single_step}) : 0;
 }
 
 void advance(bulk_kernels::plan& p, std::uint64_t offset) {

@@ -20,7 +20,7 @@ struct norm_step {
   static constexpr word ones = ~word{0};
   static constexpr element unit = static_cast<element>(word{1} << V::fraction_bits);
 
-  f scale, low, high, magic, magic_up, step;
+  f scale, low, high, magic, magic_up, step, rest;
   i code_mask, random_mask;
   bool has_sign, divides, reciprocal;
 
@@ -36,6 +36,7 @@ struct norm_step {
     reciprocal = divides && p.norm == norm_decode::reciprocal;
     step = V::all(sizeof(word) == 4 || reciprocal ? static_cast<element>(p.single_step)
                                                   : static_cast<element>(p.wide_step));
+    rest = V::all(static_cast<element>(p.single_rest));
     code_mask = V::all_bits(static_cast<word>(p.width >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << p.width) - 1));
     random_mask = V::all_bits(p.random_bits >= 64 ? ones : static_cast<word>(~(ones >> p.random_bits)));
   }
@@ -76,13 +77,16 @@ struct norm_step {
 
   /// The number of a code that is still in floating point; to nearest.
   [[gnu::always_inline]] f to_value(f c) const {
-    if constexpr (sizeof(word) == 8) {
+    if (!divides) return V::mul(c, step);
+    if constexpr (sizeof(word) == 4) {
+      // 1 / scale in two parts: for every code of at most 22 bits the quotient rounded once; a test tries all of them.
+      return V::fma(c, step, V::mul(c, rest));
+    } else {
       if (reciprocal) return V::as_single(V::mul(V::as_single(c), step));
+      const f q = V::mul(c, step);
+      // One step of Newton's with an exact remainder: the quotient rounded once [Markstein90]; tests try every code.
+      return V::fma(V::fnma(q, scale, c), step, q);
     }
-    f q = V::mul(c, step);
-    // One step of Newton's with an exact remainder: the quotient rounded once [Markstein90]; tests try every code.
-    if (divides && !reciprocal) q = V::fma(V::fnma(q, scale, c), step, q);
-    return q;
   }
 
  private:

@@ -29,7 +29,7 @@ struct lane_numbers {
   std::uint64_t largest;       ///< largest finite number
   std::uint64_t limit;         ///< largest number that does not overflow to nearest even
   std::uint64_t min_normal;
-  bool natural_overflow;       ///< overflow gives what integer additions on the lane's bits give by themselves
+  bool natural_overflow;       ///< overflow gives infinity (NaN where there is none) or, as IEEE's direction says, `largest`
 };
 
 struct plan;
@@ -60,6 +60,7 @@ struct plan {
   // Norms and fixed point: code = x * scale for low <= x <= high, x = code / scale.
   double scale, low, high;
   float single_step;   ///< fl32(1 / scale)
+  float single_rest;   ///< fl32(1 / scale - single_step), or 0 where a reciprocal is asked for
   double wide_step;    ///< fl64(1 / scale)
   std::uint32_t random_start[2], random_middle[2];  ///< of rounding_stream: for the upper words, for the lower
   std::uint32_t random_weyl, random_factors[3];  ///< of rounding_stream
@@ -70,8 +71,8 @@ struct plan {
 /// A kernel: n elements from in to out.
 using kernel = void (*)(const plan&, const void* in, void* out, std::size_t n);
 
-/// How a kernel wants the processor's rounding direction and flushing: off and as said, or it does not care.
-enum class setting : std::uint8_t { nearest, toward_zero, any };
+/// How a kernel wants the processor's rounding direction, with flushing off; or it does not care.
+enum class setting : std::uint8_t { nearest, down, up, toward_zero, any };
 
 struct chosen {
   kernel run = nullptr;  ///< null where no kernel of this set covers the case

@@ -69,6 +69,25 @@ TEST_CASE("bulk::round of dense inputs to every 16-bit binary format, in every d
   }
 }
 
+TEST_CASE("bulk::decode of every code of unorm17 to unorm22 is the quotient rounded once") {
+  for (int n = 17; n <= 22; ++n) {  // snorm of one bit more has the same quotients
+    std::vector<std::uint32_t> codes(std::size_t{1} << n);
+    std::iota(codes.begin(), codes.end(), 0u);
+    std::vector<float> got(codes.size());
+    for (const auto set : bulk_cases::sets()) {
+      if (set == bulk::instruction_set::scalar || set == bulk::instruction_set::baseline) continue;
+      bulk::decode(unorm_encoding(n), {}, std::span<const std::uint32_t>(codes), got, {.set = set});
+      // binary64 holds more than twice binary32's digits: rounding the quotient twice is rounding it once [Figueroa95].
+      const auto expected = [&](std::uint32_t c) { return static_cast<float>(static_cast<double>(c) / codes.back()); };
+      std::size_t j = 0;
+      while (j + 1 < codes.size() && got[j] == expected(codes[j])) ++j;
+      INFO(bulk_cases::describe(unorm_encoding(n), {}, set) << std::hex << " code=0x" << codes[j] << " expected=0x"
+                                                            << bits_of(expected(codes[j])) << " got=0x" << bits_of(got[j]));
+      CHECK(got[j] == expected(codes[j]));
+    }
+  }
+}
+
 TEST_CASE("bulk::round of all 2^32 numbers of binary32 to half and bfloat16 is the definition's", "[.long]") {
   constexpr std::size_t block = std::size_t{1} << 20;
   std::vector<float> in(block), expected(block), got(block);
