@@ -60,7 +60,7 @@ TEST_CASE("a compiler takes every technique's shader", "[report]") {
     return;
   }
   const frame scene = test::small_frame(32, 16, 100, 3);
-  const test::temporary_folder folder;
+  const temporary_folder folder;
   std::vector<std::string> command{"glslangValidator"};
   int number = 0;
   for (const technique method : {technique::hard, technique::pcf, technique::vsm, technique::lvsm,
