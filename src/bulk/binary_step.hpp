@@ -79,7 +79,7 @@ struct binary_step {
     i power;     ///< narrow: the power of two
     m tiny;      ///< wider: where the carrier is subnormal
     i exponent;  ///< narrow: the clamped exponent, in place
-    bool undecided = false;  ///< stochastic: the bits at hand are not enough; the scalar definition decides
+    m undecided{};  ///< stochastic: the bits at hand are not enough; the scalar definition decides
   };
 
   [[gnu::always_inline]] rounded round(i x, i random) const {
@@ -173,7 +173,7 @@ struct binary_step {
     const i missing = V::xor_(V::and_(part, random_mask), V::all_bits(ones));
     r.sum = V::iadd(r.sum, V::keep(V::ugt(drawn, missing), one));
     // All bits at hand add up to ones: the ones that were cut off decide. Once in 2^32, or for n < 32 never.
-    if (more_random) r.undecided = V::any(V::ieq(drawn, missing));
+    if (more_random) r.undecided = V::ieq(drawn, missing);
   }
 
   [[gnu::always_inline]] i finish(i v, i a, i x, i s) const {

@@ -68,13 +68,26 @@ chosen choose_native(const encoding& e, const rules& k, request r, instruction_s
   return {};
 }
 
-void run_chosen(const chosen& c, const plan& p, const void* in, void* out, std::size_t n) {
-  if (c.wants == setting::any) return c.run(p, in, out, n);
+void run_in(setting wanted, bulk_kernels::kernel k, const plan& p, const void* in, void* out, std::size_t n) {
+  if (wanted == setting::any) return k(p, in, out, n);
   constexpr float_environment::direction directions[] = {
       float_environment::direction::nearest, float_environment::direction::down, float_environment::direction::up,
       float_environment::direction::toward_zero};
-  const float_environment environment(directions[static_cast<int>(c.wants)]);
-  c.run(p, in, out, n);
+  const float_environment environment(directions[static_cast<int>(wanted)]);
+  k(p, in, out, n);
+}
+
+template <class In, class Out>
+void run_chosen(const chosen& c, const plan& p, const In* in, Out* out, std::size_t n) {
+  if (c.finish == nullptr) return run_in(c.wants, c.run, p, in, out, n);
+  constexpr std::size_t block = 2048;  // stays in the first-level cache between the two
+  plan part = p;
+  for (std::size_t j = 0; j < n; j += block) {
+    const std::size_t m = std::min(block, n - j);
+    run_in(c.wants, c.run, part, in + j, out + j, m);
+    run_in(setting::nearest, c.finish, part, out + j, out + j, m);
+    advance(part, m);
+  }
 }
 
 /// One chunk on one thread.

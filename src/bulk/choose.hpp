@@ -126,7 +126,13 @@ chosen choose_single(const plan& p, request r) {
         return with_code<false>(r.in, [](auto c) -> chosen { return {decode_norm<V, decltype(c), float>, setting::nearest}; });
       }
       if (r.what == operation::round) {
-        return with_direction<true>(p.direction, [&](auto d) -> chosen {
+        if (p.direction == rounding::stochastic) {
+          const bool few = p.random_bits <= 23;
+          const kernel draw = p.has_sign ? (few ? draw_norm<V, true, true> : draw_norm<V, true, false>)
+                                         : (few ? draw_norm<V, false, true> : draw_norm<V, false, false>);
+          return {draw, setting::toward_zero, norm_quotients<V>};
+        }
+        return with_direction<false>(p.direction, [&](auto d) -> chosen {
           constexpr rounding D = decltype(d)::value;
           return {p.has_sign ? round_norm_in<V, D, true> : round_norm_in<V, D, false>, setting::nearest};
         });

@@ -30,27 +30,42 @@ template <class V, class In, class Out, class Step>
   for (std::size_t k = 0; j + k < n; ++k) out[j + k] = last_out[k];
 }
 
-/// Runs step(in, out, random bits) over blocks of 32 numbers whose counters 32 divides; the first and last may be
-/// shorter and go through a buffer. A step that cannot decide writes nothing and returns false: the definition then
-/// does the vector's numbers.
-template <class V, class In, class Out, class Step>
+/// Runs put(out, step(in, random bits, undecided)) over blocks of 32 numbers whose counters 32 divides; the first and last
+/// may be shorter and go through a buffer. Where a step cannot decide, decide(in, out, first) does the vector's numbers.
+template <class V, class In, class Out, class Step, class Put, class Decide>
 [[gnu::always_inline]] inline void over_random(const plan& p, const void* source, void* target, std::size_t n,
-                                               Step step) {
-  constexpr std::size_t block = random_block<V>::numbers, width = V::width;
+                                               Step step, Put put, Decide decide) {
+  constexpr std::size_t block = random_block<V>::numbers, width = V::width, vectors = block / width;
+  constexpr std::size_t group = vectors < 4 ? vectors : 4;  // asked together whether all are decided
   const In* in = static_cast<const In*>(source);
   Out* out = static_cast<Out*>(target);
   random_block<V> random(p);
   // `first` is the number of the block's first element, below 0 (modulo 2^64) where the block began before the span.
-  const auto whole = [&](const In* a, Out* b, std::size_t first) {
+  const auto whole = [&](const In* a, Out* b, std::size_t first) __attribute__((always_inline)) {
     random.draw();
+#pragma GCC unroll 2
+    for (std::size_t g = 0; g < vectors; g += group) {
+      using result = decltype(step(a, random.bits(0), *static_cast<typename V::m*>(nullptr)));
+      result r[group];
+      typename V::m undecided[group]{}, any{};
 #pragma GCC unroll 4
-    for (std::size_t k = 0; k < block / width; ++k) {
-      if (!step(a + k * width, b + k * width, random.bits(k))) [[unlikely]] {
-        p.define(p, a + k * width, b + k * width, width, first + k * width);
+      for (std::size_t k = 0; k < group; ++k) {
+        r[k] = step(a + (g + k) * width, random.bits(g + k), undecided[k]);
+        any = static_cast<typename V::m>(any | undecided[k]);
       }
+      if (V::any(any)) [[unlikely]] {
+        for (std::size_t k = 0; k < group; ++k) {
+          const std::size_t at = (g + k) * width;
+          if (V::any(undecided[k])) decide(a + at, b + at, first + at);
+          else put(b + at, r[k]);
+        }
+        continue;
+      }
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < group; ++k) put(b + (g + k) * width, r[k]);
     }
   };
-  const auto part = [&](std::size_t skip, std::size_t j, std::size_t m) {
+  const auto part = [&](std::size_t skip, std::size_t j, std::size_t m) __attribute__((noinline)) {
     In some_in[block] = {};
     Out some_out[block];
     for (std::size_t k = 0; k < m; ++k) some_in[skip + k] = in[j + k];
@@ -67,63 +82,88 @@ template <class V, class In, class Out, class Step>
   if (j < n) part(0, j, n - j);
 }
 
+/// Runs step and put in any direction; a step that does not draw ignores its second and third argument.
+template <class V, rounding D, class In, class Out, class Step, class Put>
+[[gnu::always_inline]] inline void in_direction(const plan& p, const void* in, void* out, std::size_t n, Step step,
+                                                Put put) {
+  if constexpr (D == rounding::stochastic) {
+    over_random<V, In, Out>(p, in, out, n, step, put, [&](const In* a, Out* b, std::size_t first) {
+      p.define(p, a, b, V::width, first);
+    });
+  } else {
+    over<V, In, Out>(in, out, n, [&](const In* a, Out* b) {
+      typename V::m undecided{};
+      put(b, step(a, V::all_bits(0), undecided));
+    });
+  }
+}
+
 /// A step that rounds bits to bits, over spans of numbers.
 template <class V, rounding D, class Io, class Step>
 void round_values(const plan& p, const void* in, void* out, std::size_t n) {
+  using i = typename V::i;
   const Step step(p);
-  if constexpr (D == rounding::stochastic) {
-    over_random<V, Io, Io>(p, in, out, n, [&](const Io* a, Io* b, typename V::i random) {
-      typename V::m undecided{};
-      const auto v = step(V::bits(V::load(a)), random, undecided);
-      const bool decided = !V::any(undecided);
-      if (decided) V::store(b, V::value(v));
-      return decided;
-    });
-  } else {
-    over<V, Io, Io>(in, out, n, [&](const Io* a, Io* b) { V::store(b, V::value(step(V::bits(V::load(a))))); });
-  }
+  const auto one = [&](const Io* a, i random, typename V::m& undecided) {
+    if constexpr (D == rounding::stochastic) return step(V::bits(V::load(a)), random, undecided);
+    else return step(V::bits(V::load(a)));
+  };
+  in_direction<V, D, Io, Io>(p, in, out, n, one, [](Io* b, i v) { V::store(b, V::value(v)); });
 }
 
 template <class V, reach Reach, rounding D, class Io>
 void round_binary(const plan& p, const void* in, void* out, std::size_t n) {
+  using i = typename V::i;
   const binary_step<V, Reach, D> step(p, false);
-  const auto one = [&](const Io* a, Io* b, typename V::i random) {
-    const auto x = V::bits(V::load(a));
+  const auto one = [&](const Io* a, i random, typename V::m& undecided) {
+    const i x = V::bits(V::load(a));
     const auto r = step.round(x, random);
-    if (!r.undecided) V::store(b, V::value(step.to_value(r, x)));
-    return !r.undecided;
+    undecided = r.undecided;
+    return step.to_value(r, x);
   };
-  if constexpr (D == rounding::stochastic) over_random<V, Io, Io>(p, in, out, n, one);
-  else over<V, Io, Io>(in, out, n, [&](const Io* a, Io* b) { one(a, b, V::all_bits(0)); });
+  in_direction<V, D, Io, Io>(p, in, out, n, one, [](Io* b, i v) { V::store(b, V::value(v)); });
 }
 
 template <class V, reach Reach, rounding D, class In, class Code>
 void encode_binary(const plan& p, const void* in, void* out, std::size_t n) {
+  using i = typename V::i;
   const binary_step<V, Reach, D> step(p, true);
-  const auto one = [&](const In* a, Code* b, typename V::i random) {
-    const auto x = V::bits(V::load(a));
+  const auto one = [&](const In* a, i random, typename V::m& undecided) {
+    const i x = V::bits(V::load(a));
     const auto r = step.round(x, random);
-    if (!r.undecided) V::store_codes(b, step.to_code(r, x));
-    return !r.undecided;
+    undecided = r.undecided;
+    return step.to_code(r, x);
   };
-  if constexpr (D == rounding::stochastic) over_random<V, In, Code>(p, in, out, n, one);
-  else over<V, In, Code>(in, out, n, [&](const In* a, Code* b) { one(a, b, V::all_bits(0)); });
+  in_direction<V, D, In, Code>(p, in, out, n, one, [](Code* b, i c) { V::store_codes(b, c); });
 }
 
-/// binary32 lanes, any direction.
+/// binary32 lanes, any direction but the stochastic one.
 template <class V, rounding D, bool Signed>
 void round_norm_in(const plan& p, const void* in, void* out, std::size_t n) {
   const norm_value<V, D, Signed> step(p);
-  if constexpr (D == rounding::stochastic) {
-    over_random<V, float, float>(p, in, out, n, [&](const float* a, float* b, typename V::i random) {
-      bool undecided = false;
-      const auto v = step(V::load(a), random, undecided);
-      if (!undecided) V::store(b, v);
-      return !undecided;
-    });
-  } else {
-    over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step(V::load(a))); });
-  }
+  over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step(V::load(a))); });
+}
+
+/// Stochastically to codes that are still numbers; norm_quotients, to nearest, makes values of them.
+template <class V, bool Signed, bool Few>
+void draw_norm(const plan& p, const void* in, void* out, std::size_t n) {
+  using f = typename V::f;
+  const drawn_norm<V, Signed, Few> step(p);
+  const auto one = [&](const float* a, typename V::i random, typename V::m& undecided) {
+    return step(V::load(a), random, undecided);
+  };
+  const auto decide = [&](const float* a, float* b, std::size_t first) {
+    p.define(p, a, b, V::width, first);
+    for (std::size_t k = 0; k < V::width; ++k) {  // back from the value to its code
+      const double code = double{b[k]} * p.scale;
+      b[k] = static_cast<float>(static_cast<int>(code < 0 ? code - 0.5 : code + 0.5));
+    }
+  };
+  over_random<V, float, float>(p, in, out, n, one, [](float* b, f c) { V::store(b, c); }, decide);
+}
+template <class V>
+void norm_quotients(const plan& p, const void* in, void* out, std::size_t n) {
+  const norm_step<V, rounding::nearest_even> step(p);
+  over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step.to_value(V::load(a))); });
 }
 
 template <class V, class Io>
@@ -136,13 +176,10 @@ void round_norm(const plan& p, const void* in, void* out, std::size_t n) {
 
 template <class V, rounding D, class In, class Code>
 void encode_norm(const plan& p, const void* in, void* out, std::size_t n) {
+  using i = typename V::i;
   const norm_step<V, D> step(p);
-  const auto one = [&](const In* a, Code* b, typename V::i random) {
-    V::store_codes(b, step.to_code(V::load(a), random));
-    return true;
-  };
-  if constexpr (D == rounding::stochastic) over_random<V, In, Code>(p, in, out, n, one);
-  else over<V, In, Code>(in, out, n, [&](const In* a, Code* b) { one(a, b, V::all_bits(0)); });
+  const auto one = [&](const In* a, i random, typename V::m&) { return step.to_code(V::load(a), random); };
+  in_direction<V, D, In, Code>(p, in, out, n, one, [](Code* b, i c) { V::store_codes(b, c); });
 }
 
 template <class V, class Code, class Out>

@@ -77,6 +77,7 @@ enum class setting : std::uint8_t { nearest, down, up, toward_zero, any };
 struct chosen {
   kernel run = nullptr;  ///< null where no kernel of this set covers the case
   setting wants = setting::nearest;
+  kernel finish = nullptr;  ///< if any, goes over what `run` wrote, to nearest
 };
 
 /// What a kernel reads and writes: 'f' and 'd' for float and double, 'b' 'h' 'w' 'q' for codes of 8 to 64 bits.

@@ -85,6 +85,37 @@ TEST_CASE("bulk's stochastic rounding is unbiased") {
   CHECK(std::abs(share - 0.25) < 5 * 0.433 / 1024);
 }
 
+TEST_CASE("bulk asks random bits beyond those that a vector has at hand") {
+  // A share f of the smallest step, just below 2^-23: only numbers whose first 23 random bits are ones go up, and the
+  // bits behind them decide. About two of 2^24 do.
+  constexpr double f = 0x1.f8p-24;
+  constexpr std::size_t count = 1 << 24, chunk = 1 << 18;
+  for (const encoding& e : {binary16::value, fp8_e4m3::value, unorm_encoding(16), snorm_encoding(16)}) {
+    const float x = static_cast<float>(-f * decode(e, 1)), y = e.has_sign ? x : -x;
+    const float up = static_cast<float>(e.has_sign ? -decode(e, 1) : decode(e, 1));
+    const std::vector<float> in(chunk, y);
+    for (const auto set : bulk_cases::sets()) {
+      if (set == bulk::instruction_set::scalar || set == bulk::instruction_set::baseline) continue;
+      std::vector<float> out(chunk);
+      int ups = 0;
+      for (std::uint64_t first = 0; first < count; first += chunk) {
+        bulk::round(e, stochastic, in, out, {.seed = 5, .first_counter = first, .set = set});
+        for (std::size_t j = 0; j < chunk; ++j) {
+          const std::uint64_t bits = rounding_bits(5, first + j);
+          if (bits >> 41 != 0x7fffff && out[j] == 0) continue;
+          const auto expected = static_cast<float>(round_to(e, y, stochastic, bits));
+          INFO(bulk_cases::describe(e, stochastic, set) << " counter=" << first + j << std::hex << " random=0x" << bits
+                                                        << " expected=0x" << bits_of(expected) << " got=0x"
+                                                        << bits_of(out[j]));
+          CHECK(bits_of(out[j]) == bits_of(expected));
+          ups += expected == up ? 1 : 0;
+        }
+      }
+      CHECK(ups > 0);
+    }
+  }
+}
+
 TEST_CASE("bulk refuses what cannot be meant") {
   std::vector<float> three(3), four(4);
   std::vector<std::uint8_t> codes(3);
