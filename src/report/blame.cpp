@@ -73,7 +73,7 @@ report_part blame_part(const blame& b, const std::vector<std::pair<std::string, 
   report_part part;
   part.title = "Which stage is guilty: " + label;
   part.text = blame_sentence(b);
-  part.finding = "Of the format error of " + label + ", stage by stage: " + part.text;
+  part.finding = "The format error of " + label + ", stage by stage. " + part.text;
   part.body = figure(bars_of(b, "Errors of " + label + ", stage by stage"),
                      caption("Each stage alone in the format, and all but it.",
                              "Against the same run with every stage exact.", command)) +

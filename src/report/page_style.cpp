@@ -94,7 +94,8 @@ dl.effects dt { font-weight: 600; } dl.effects dd { margin: 0; }
   .choices label { width: 100%; justify-content: space-between; } }
 @media print { body { max-width: none; padding: 0; font-size: 10pt; } .choices, nav { display: none; }
   figure, .scroll, tr { break-inside: avoid; } h2, h3 { break-after: avoid; }
-  .scroll { overflow: visible; } th, td { padding: .15rem .3rem; font-size: 7.5pt; }
+  .scroll { overflow: visible; } th, td { padding: .12rem .22rem;
+  font-size: 6.5pt; white-space: normal; }
   svg, .still, .compare { min-width: 0; max-width: 30rem; } }
 )css";
 }

@@ -45,6 +45,19 @@ bool within_spread(const pareto_front& f, std::size_t i) {
   return other.high >= f.rows[i].natural.relative.low;
 }
 
+std::string doubt_of(const pareto_front& f) {
+  const auto far_apart = [](const row& r) {
+    const spread& t = r.natural.relative;
+    return t.high > 1.5 * t.low;
+  };
+  const auto count = std::count_if(f.rows.begin(), f.rows.end(), far_apart);
+  if (2 * static_cast<std::size_t>(count) < f.rows.size()) return "";
+  return "The machine was busy: in " + std::to_string(count) + " of " +
+         std::to_string(f.rows.size()) +
+         " configurations the upper quartile of the time is over 1.5 times the lower one. Run it "
+         "again on a quiet machine, or with more --repeats.";
+}
+
 std::span<const std::string_view> measure_names() { return names; }
 
 double measured(const row& r, std::string_view measure) {
@@ -150,6 +163,7 @@ std::string text_pareto(const pareto_front& f) {
       (all_natural ? ""
                    : " ?: this configuration has no such storage here; its time is that of native "
                      "arithmetic alone."));
+  if (const std::string doubt = doubt_of(f); !doubt.empty()) out += paragraph(doubt);
   out += paragraph(
       "* What emulating the format costs this program, in the same unit. No device pays it; no "
       "other column holds it.");

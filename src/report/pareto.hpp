@@ -35,6 +35,9 @@ double reference_seconds(const natural_times& times);
 /// Whether what beats row i in time does so by less than both times' quartiles are apart.
 bool within_spread(const pareto_front& front, std::size_t i);
 
+/// A sentence where the quartiles of many times lie far apart: the machine was busy; else empty.
+std::string doubt_of(const pareto_front& front);
+
 pareto_front pareto_of(std::span<const row> rows, const std::string& measure);
 
 /// A table of at most 80 columns, and by what the others are beaten.

@@ -109,6 +109,7 @@ report_part html_pareto(const pareto_front& f, const std::string& command) {
       "Every configuration ran with its texels in memory as the format's own bits, decoded when "
       "loaded and encoded when stored. Times are multiples of a frame of a single-layer VSM in "
       "binary32, run natively beside each: medians, with quartiles as bars.";
+  if (const std::string doubt = doubt_of(f); !doubt.empty()) part.text += " " + doubt;
   part.body =
       figure(plot_of(f, f.by_time, {"time of a frame (1 = native binary32 VSM)", true, {}},
                      "Error against time, a mark a configuration", true,
