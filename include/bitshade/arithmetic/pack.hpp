@@ -4,7 +4,7 @@
 // pack_math.hpp <cmath>.
 #pragma once
 
-#include <cstring>
+#include <bit>
 #include <type_traits>
 
 #include "bitshade/arithmetic/pack_carrier.hpp"
@@ -16,15 +16,16 @@ namespace bitshade {
 ///
 /// Shapes   reads or writes P::lanes scalars from p on.
 template <class P, class F, rules R>
-real<F, R, P> load_pack(const real<F, R, typename P::scalar>* p) {
-  real<F, R, P> r;
-  static_assert(std::is_trivially_copyable_v<real<F, R, P>> && sizeof r == P::lanes * sizeof *p);
-  std::memcpy(static_cast<void*>(&r), p, sizeof r);
-  return r;
+[[gnu::always_inline]] inline real<F, R, P> load_pack(const real<F, R, typename P::scalar>* p) {
+  using T = typename P::scalar;
+  static_assert(std::is_trivially_copyable_v<real<F, R, P>> && sizeof(real<F, R, T>) == sizeof(T));
+  // Register by register: g++ copies several at once through memory, in pieces that a load then waits for.
+  return std::bit_cast<real<F, R, P>>(P::load(static_cast<const T*>(static_cast<const void*>(p))));
 }
 template <class P, class F, rules R>
-void store_pack(const real<F, R, P>& x, real<F, R, typename P::scalar>* p) {
-  std::memcpy(static_cast<void*>(p), &x, sizeof x);
+[[gnu::always_inline]] inline void store_pack(const real<F, R, P>& x, real<F, R, typename P::scalar>* p) {
+  using T = typename P::scalar;
+  x.carrier().store(static_cast<T*>(static_cast<void*>(p)));
 }
 
 }  // namespace bitshade
