@@ -48,6 +48,16 @@ void rounds_once() {
     expect("/", oracle::operation::divide, of(x) / of(y));
     expect("sqrt", oracle::operation::square_root, sqrt(of(x)));
   }
+  // (1 + u) u/2 (1 - u) + 1 + u with u = 2^-M lies u^3/2 below a tie that goes up: three times a significand apart.
+  if constexpr (min_exponent(e) <= -e.fraction_bits - 1) {
+    const auto code = [&](double v, int steps) {
+      return T::from_bits(static_cast<typename T::bits_type>(encode(e, v) + static_cast<std::uint64_t>(steps)));
+    };
+    const T odd = code(1, 1), nearly = code(std::ldexp(1.0, -e.fraction_bits - 1), -2);
+    INFO(name_of(e));
+    CHECK(fma(odd, nearly, odd) == odd);
+    CHECK(fma(odd, -nearly, code(1, 2)) == code(1, 2));
+  }
 }
 
 /// Depths t one step beyond mu with variance 0: how many squares (t - mu)^2 are 0, and whether any bound is NaN.
