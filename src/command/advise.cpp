@@ -187,7 +187,7 @@ void add_advise(CLI::App& app) {
     left_out.insert(left_out.end(), of_the_run.begin(), of_the_run.end());
     job.cells = cells_of(*given->cells, *command, of_the_run);
     demand_stored(job);
-    job.cells = candidates(job.cells, arguments_of(*command, left_out));
+    job.cells = candidates(job.cells, arguments_of(*command, left_out, reference_of(job.cells.front().what)));
     answer(*given);
   });
 }
