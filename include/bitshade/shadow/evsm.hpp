@@ -125,9 +125,10 @@ void negative_warp_row(std::span<const float> depth, const evsm_constants& c, st
 ///
 /// Units    slope: slope_variance() of the depths; m1, m2 of the warp that has the constant c.
 /// Policy   every operation is T's.
-/// Failure  none: no sum exceeds the square of the warp's largest value. Limited slopes are at most
+/// Failure  none: no sum exceeds the square of the warp's largest value. A limited slope is at most
 ///          1 - x each (x for w-), and e^(2 c x) (1 + c^2 (1 - x)^2 / 2) rises up to x = 1: its
-///          derivative's factor 2 + y^2 - y, y = c (1 - x), has no zero. exponent_cap needs no room.
+///          derivative's factor 2 + y^2 - y, y = c (1 - x), has no zero. exponent_cap needs no
+///          room.
 /// Source   (12): [LauritzenMcCool08] section 3, on section 7's warp.
 template <class T>
 void add_warped_slope(const T& slope, double c, const T& m1, T& m2) {
