@@ -41,6 +41,7 @@ std::vector<asked_cell> candidates(const std::vector<asked_cell>& asked,
   for (asked_cell cell : asked) {
     const bool wide = cell.what.format == "binary32" || cell.what.format == "binary64";
     if (wide || cell.what.exact() || !uses_floor(cell.what.method)) continue;
+    if (cell.what.method == technique::savsm) continue;  // its sums' noise has no derived floor
     cell.what.noise_floor = true, cell.arguments += " --noise-floor";
     add(std::move(cell));
   }
