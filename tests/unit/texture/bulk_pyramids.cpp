@@ -79,7 +79,7 @@ TEST_CASE("bulk::downsample decodes before and encodes after") {
 
 TEST_CASE("bulk::fill_mips gives mip_chain's levels on any number of threads") {
   const std::pair<int, int> tall[] = {{1, 1}, {1, 8}, {6, 64}, {33, 320}, {130, 192}, {40, 129}};
-  for (const auto [width, height] : tall) {
+  for (const auto& [width, height] : tall) {
     for (const auto filter : {mip_filter::box, mip_filter::centre, mip_filter::area}) {
       const image<float> base = noise(width, height, 2, 11);
       const auto expected = mip_chain<float>(base, filter, [](std::span<float>) {});
