@@ -29,8 +29,11 @@ number light(const method& m, std::span<const number> x, const number& t, const 
 
 number stored_light(const method& m, const encoding& format, std::span<const number> x,
                     const number& t, const interval& layer, double min_variance) {
+  // A rational has no infinity: what a spoilt warp sends beyond the format stays at its end.
+  rules r;
+  r.overflow = overflow::saturate;
   return light_of(m, x, t, layer, min_variance, [&](const number& v) {
-    return number(round_to(format, static_cast<double>(v)));
+    return number(round_to(format, static_cast<double>(v), r));
   });
 }
 

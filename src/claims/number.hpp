@@ -11,7 +11,7 @@ namespace bitshade::claims {
 /// A rational number: + - x / and comparisons are exact, conversions in are exact. It is
 /// exact_rational (interop/rational.hpp) with its operators in one place.
 ///
-/// Failure  division by zero throws std::overflow_error; an infinite or NaN double becomes 0.
+/// Failure  division by zero throws std::overflow_error, an infinite or NaN double std::domain_error.
 class number {
  public:
   number();

@@ -57,7 +57,7 @@ outcome measure(laboratory& lab) {
     configuration how;
     how.method = technique::savsm;
     how.format = "unorm16";
-    how.blur_taps = taps;
+    how.smallest_box = taps;
     runs.push_back([&lab, &beams, how] {
       const cell got = lab.under_test().render(beams, how, 1);
       return got.map_seconds + got.shade_seconds;

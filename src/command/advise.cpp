@@ -41,6 +41,7 @@ std::vector<asked_cell> candidates(const std::vector<asked_cell>& asked,
   for (asked_cell cell : asked) {
     const bool wide = cell.what.format == "binary32" || cell.what.format == "binary64";
     if (wide || cell.what.exact() || !uses_floor(cell.what.method)) continue;
+    if (cell.what.method == technique::savsm) continue;  // its sums' noise has no derived floor
     cell.what.noise_floor = true, cell.arguments += " --noise-floor";
     add(std::move(cell));
   }
@@ -187,7 +188,7 @@ void add_advise(CLI::App& app) {
     left_out.insert(left_out.end(), of_the_run.begin(), of_the_run.end());
     job.cells = cells_of(*given->cells, *command, of_the_run);
     demand_stored(job);
-    job.cells = candidates(job.cells, arguments_of(*command, left_out));
+    job.cells = candidates(job.cells, arguments_of(*command, left_out, reference_of(job.cells.front().what)));
     answer(*given);
   });
 }

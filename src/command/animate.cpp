@@ -9,6 +9,7 @@
 #include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
+#include "report/cell_pictures.hpp"
 #include "report/drawing.hpp"
 #include "report/folder.hpp"
 #include "run/split_path.hpp"
@@ -105,9 +106,7 @@ std::string cost_of(const std::vector<finished_frame>& frames) {
 void animate(const animation& given) {
   const configuration& c = given.cell;
   const std::string name = label_of(c);
-  const std::string stem = file_stem(given.scene) + "-" + std::string(name_of(c.method)) +
-                           (c.method == technique::lvsm ? std::to_string(c.layers) : "") + "-" +
-                           c.format + "-";
+  const std::string stem = cell_stem(given.scene, c);
   scene_options how = given.how;
   how.time = 0;
   check_study_memory(load_for(given.scene, how, {c}), {c});

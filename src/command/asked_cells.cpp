@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 
+#include "command/option_use.hpp"
 #include "io/error.hpp"
 
 namespace bitshade::command {
@@ -71,19 +72,22 @@ std::shared_ptr<cell_choice> add_cell_choice(CLI::App& app, const study_options&
   return choice;
 }
 
-std::vector<asked_cell> cells_of(const cell_choice& choice, const CLI::App& app,
+std::vector<asked_cell> cells_of(cell_choice& choice, const CLI::App& app,
                                  const std::vector<std::string>& not_shared) {
-  if (!choice.grid.empty())
-    return shard_of(read_grid(choice.grid, options_given(app)), choice.shard);
+  std::vector<asked_cell> all;
+  if (!choice.grid.empty()) all = read_grid(choice.grid, options_given(app));
   std::vector<std::string> left_out{"shard", "grid", "techniques", "formats", "layers"};
   left_out.insert(left_out.end(), not_shared.begin(), not_shared.end());
-  const std::string shared = arguments_of(app, left_out);
-  std::vector<asked_cell> all;
-  for (const configuration& c : choice.options->cells())
-    all.push_back(
-        {c, shared + " --technique " + std::string(name_of(c.method)) +
-                (c.method == technique::lvsm ? " --layers " + std::to_string(c.layers) : "") +
-                " --format " + c.format});
+  if (choice.grid.empty()) {
+    for (const configuration& c : choice.options->cells())
+      all.push_back(
+          {c, arguments_of(app, left_out, c) + " --technique " + std::string(name_of(c.method)) +
+                  (c.method == technique::lvsm ? " --layers " + std::to_string(c.layers) : "") +
+                  " --format " + c.format});
+  }
+  std::vector<configuration> cells;
+  for (const asked_cell& cell : all) cells.push_back(cell.what);
+  choice.notes = check_use(app, cells);
   return shard_of(std::move(all), choice.shard);
 }
 

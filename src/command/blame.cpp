@@ -1,12 +1,12 @@
 // `bitshade blame`: which stage is guilty of a format's error.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
 #include "command/format_options.hpp"
+#include "command/option_use.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
 #include "io/atomic_file.hpp"
@@ -14,7 +14,7 @@
 #include "io/error.hpp"
 #include "io/text.hpp"
 #include "report/blame.hpp"
-#include "report/folder.hpp"
+#include "report/cell_pictures.hpp"
 #include "report/plot.hpp"
 #include "report/text_table.hpp"
 #include "run/blame.hpp"
@@ -82,31 +82,26 @@ void find_guilt(const options& given) {
   }
   const configuration& c = cells.front();
   const stage_choices choices = choices_of(given);
-  const frame input = load_input(given.scene, *given.how);
+  check_use(*given.cell->app, cells, measured::alone);
+  if (given.weight_bits > 0 && (c.filter != texel_filter::bilinear || c.max_anisotropy > 1)) {
+    throw usage_error("--weight-bits is for plain bilinear lookups: leave out --filter and "
+                      "--anisotropy, or --weight-bits");
+  }
+  const frame input = load_for(given.scene, *given.how, cells);
   check_study_memory(input, cells);
-  const std::filesystem::path folder = given.out;
   const blame b = blame_of(input, c, choices, given.how->threads);
-  make_output_folder(folder);
+  cell_pictures pictures(given.out, given.scene, c);
 
   const std::string command = "bitshade blame " + shell_quoted(given.scene) + given.arguments;
-  const std::string layers = c.method == technique::lvsm ? std::to_string(c.layers) : "";
-  const std::string stem = file_stem(given.scene) + "-" + std::string(name_of(c.method)) + layers +
-                           "-" + c.format + "-blame";
-  nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  std::string list;
   const auto maps = blame_maps(b, input.view_width, input.view_height);
-  for (const auto& [name, png] : maps) {
-    const auto path = (folder / (stem + "-" + name + ".png")).string();
-    write_file(path, png);
-    files[name] = path;
-    list += "  " + path + "\n";
-  }
+  for (const auto& [name, png] : maps) pictures.add("blame-" + name, "", png);
   const report_head head{command, program_version(), compiler_description(), machine_description(),
                          std::to_string(given.how->seed)};
   const report_part part = blame_part(b, maps, label_of(c), c.format, command);
-  const std::string page = (folder / (stem + ".html")).string();
+  const std::string page = pictures.path_of("blame", ".html");
   write_file(page, html_page(head, part.title,
                              "<main><p>" + escaped(part.text) + "</p>" + part.body + "</main>\n"));
+  nlohmann::ordered_json files = pictures.files();
   files["report"] = page;
 
   if (given.json) {
@@ -128,7 +123,7 @@ void find_guilt(const options& given) {
               << '\n';
     return;
   }
-  std::cout << text_of(b, c) << "Maps and bars:\n" << list << "  " << page << '\n';
+  std::cout << text_of(b, c) << "Maps and bars:\n" << pictures.list() << "  " << page << '\n';
 }
 
 }  // namespace
@@ -139,7 +134,7 @@ void add_blame(CLI::App& app) {
       "blame",
       "Which stage is guilty of how much of a format's error\n"
       "Runs one configuration with each stage alone in the format and with each stage alone exact: "
-      "Lloyd's reduction, store, blur, mips, filter weights, filter, shading. A table here; bars "
+      "Lloyd's reduction, store, resolve, blur, mips, filter weights, filter, shading. A table here; bars "
       "and maps of each stage's error as PNG and HTML in the folder of --out.");
   command->add_option("SCENE", given->scene, scene_argument_help())->capture_default_str();
   study_options initial;

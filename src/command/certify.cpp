@@ -1,18 +1,17 @@
 // `bitshade certify`: intervals that certainly hold what exact arithmetic would give.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/option_use.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
-#include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
-#include "report/folder.hpp"
+#include "report/cell_pictures.hpp"
 #include "report/maps.hpp"
 #include "report/text_table.hpp"
 #include "run/certify.hpp"
@@ -58,28 +57,24 @@ void certify_scene(const options& given) {
                       ": give one technique, one format and one layer count");
   }
   const configuration& c = cells.front();
-  const frame input = load_input(given.scene, *given.how);
+  check_use(*given.cell->app, cells, measured::alone);
+  const frame input = load_for(given.scene, *given.how, cells);
   check_study_memory(input, cells);
   const certificates all = certify(input, c, given.how->threads);
   const width_figures global = widths_of(all.global), stored = widths_of(all.stored),
                       running = widths_of(all.running);
 
-  const std::filesystem::path folder = given.out;
-  make_output_folder(folder);
-  const std::string layers = c.method == technique::lvsm ? std::to_string(c.layers) : "";
-  const std::string path =
-      (folder / (file_stem(given.scene) + "-" + std::string(name_of(c.method)) + layers + "-" +
-                 c.format + "-certificate.png"))
-          .string();
+  cell_pictures pictures(given.out, given.scene, c);
   std::vector<double> widths, nothing(all.running.size(), 0.0);
   for (const light_interval& i : all.running) widths.push_back(i.low == i.low ? i.width() : 0);
-  write_file(path, encode_png(error_map(widths, nothing, input.view_width, input.view_height)));
+  pictures.add("certificate", "widths of the last",
+               error_map(widths, nothing, input.view_width, input.view_height));
 
   if (given.json) {
     std::cout << nlohmann::ordered_json{{"scene", given.scene},       {"configuration", c.key()},
                                         {"roundings", all.roundings}, {"global", json_of(global)},
                                         {"stored", json_of(stored)},  {"running", json_of(running)},
-                                        {"files", {{"widths", path}}}}
+                                        {"files", pictures.files()}}
                      .dump(1)
               << '\n';
     return;
@@ -94,7 +89,7 @@ void certify_scene(const options& given) {
                            line("the stored moments", stored),
                            line("the roundings that happened", running)},
                           {0})
-            << "  " << path << "  (widths of the last)\n";
+            << pictures.list();
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ class App;
 
 namespace bitshade::command {
 
-/// Adds --msaa, --blur and its finer options, --lookups, --filter and --anisotropy, which write to
+/// Adds --msaa, --blur and its finer options, --lookups, --filter, --anisotropy and
+/// --smallest-box, which write to
 /// `how`; its values are the defaults in the help. `how` must outlive the application.
 void add_filter_options(CLI::App& app, configuration& how, const std::string& group);
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "command/grid_file.hpp"
+#include "command/option_use.hpp"
 #include "command/study_options.hpp"
 #include "io/build.hpp"
 #include "io/error.hpp"
@@ -87,6 +88,10 @@ class grid {
       each(whole["cells"], "/cells",
            [&](const json& one, const std::string& path) { single(one, path); });
     }
+    for (const auto& [place, use] : fields_)
+      if (!use.second)
+        refuse(place, "'" + use.first + "' is for " + users_of(use.first) +
+                          ": leave it out, or describe such a cell");
     if (cells_.empty()) refuse("", "describes no cell: give a \"product\" or \"cells\"");
     return side_by_side();
   }
@@ -196,8 +201,12 @@ class grid {
             "is " + std::to_string(all.size()) +
             " cells: write [\"a\", \"b\"] instead of \"a,b\", and give every cell one "
             "technique, one format and one layer count");
+      if (described) mark_used(own, all.front());
       std::string text;
-      for (const std::string& argument : arguments) text += " " + shell_quoted(argument);
+      for (const std::string& argument : arguments) {
+        const std::string name = argument.substr(2, argument.find('=') - 2);
+        if (is_used(name, all.front())) text += " " + shell_quoted(argument);
+      }
       return {all.front(), text};
     } catch (const CLI::ParseError& e) {
       refuse(path, e.what());
@@ -205,6 +214,15 @@ class grid {
       std::string cell;
       for (const field& f : own) cell += (cell.empty() ? "" : ", ") + f.name + " " + f.value;
       refuse(path, (described ? "the cell of " + cell + ": " : "") + e.what());
+    }
+  }
+
+  /// Keeps which values, by their place in the file, change anything in some cell.
+  void mark_used(const fields& own, const configuration& c) {
+    for (const field& f : own) {
+      auto& use = fields_.try_emplace(f.path, f.name, false).first->second;
+      use.second = use.second || is_used(f.name, c) || f.value == "false" ||
+                   (f.name == "layers" && f.value == "1");
     }
   }
 
@@ -270,6 +288,7 @@ class grid {
   std::vector<exclusion> exclusions_;
   std::vector<asked_cell> cells_;
   std::set<std::string> keys_;
+  std::map<std::string, std::pair<std::string, bool>> fields_;  ///< name, and whether it is used
 };
 
 }  // namespace

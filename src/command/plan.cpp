@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/option_use.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
 #include "io/text.hpp"
@@ -24,6 +25,7 @@ struct options {
 
 void print_plan(const options& given) {
   const std::vector<configuration> cells = given.cells->cells();
+  const auto notes = check_use(*given.cells->app, cells, measured::alone);
   const frame input = load_for(given.scene, *given.how, cells);
   std::vector<row> rows;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -48,6 +50,7 @@ void print_plan(const options& given) {
     return;
   }
   std::cout << text_effects(rows);
+  print_notes(notes);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "command/commands.hpp"
+#include "command/filter_options.hpp"
+#include "command/option_use.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
 #include "io/atomic_file.hpp"
@@ -20,14 +22,20 @@
 namespace bitshade::command {
 namespace {
 
+constexpr const char* filter_group = "Filters on the scene";
+
 struct options {
   std::string scene;
   std::shared_ptr<scene_options> how;
   std::string layers = "1,2,4,8", floors = "1e-4,9e-6", roundings = "1,3";
   double tolerated = 1.0 / 255, overlap = 0, exponent = 5, reach = 0;
   bool adversarial = false, joint = false, json = false;
+  configuration filters;  ///< of the search on a scene
   std::string out;
   std::string arguments;
+  const CLI::App* app = nullptr;
+
+  bool everything() const { return scene.empty() && !adversarial && !joint; }
 };
 
 std::vector<int> whole_numbers(const std::string& text, const std::string& option, int most) {
@@ -78,6 +86,55 @@ asked checked(const options& given) {
   return a;
 }
 
+/// What is searched on a scene: vsm and lvsm in every number of layers, evsm2 and evsm4.
+std::vector<configuration> cells_on_scene(const options& given, const asked& a) {
+  configuration c = given.filters;
+  c.exponent = c.negative_exponent = given.exponent;
+  c.overlap = given.overlap;
+  std::vector<configuration> all;
+  for (const double floor : a.floors) {
+    c.min_variance = floor;
+    for (const int n : a.layers) {
+      c.method = n == 1 ? technique::vsm : technique::lvsm;
+      c.layers = n;
+      all.push_back(c);
+    }
+    c.layers = 1;
+    for (const technique t : {technique::evsm2, technique::evsm4}) {
+      c.method = t;
+      all.push_back(c);
+    }
+  }
+  return all;
+}
+
+/// Refuses options of a part that is not asked for.
+void refuse_idle(const options& given, const asked& a) {
+  const auto only = [&](std::initializer_list<const char*> names, const std::string& what) {
+    for (const char* name : names) {
+      if (given.app->count(name) > 0) throw usage_error(std::string(name) + " " + what);
+    }
+  };
+  const bool footprints = given.adversarial || given.everything();
+  if (!given.joint && !given.everything()) only({"--reach"}, "is for the chart of --joint: give it");
+  if (!footprints) {
+    only({"--roundings"}, "is for the search on footprints: give --adversarial, too");
+    if (given.scene.empty()) {
+      only({"--overlap", "--exponent"},
+           "is for searches: give a SCENE or --adversarial, or leave out --joint");
+    }
+  }
+  if (!given.scene.empty()) {
+    check_use(*given.app, cells_on_scene(given, a), measured::alone);
+    return;
+  }
+  std::string idle = given.how->given.empty() ? "" : *given.how->given.begin();
+  for (const CLI::Option* option : given.app->get_options()) {
+    if (option->get_group() == filter_group && option->count() > 0) idle = option->get_name();
+  }
+  if (!idle.empty()) throw usage_error(idle + " is for the search on a scene: give a SCENE");
+}
+
 /// One curve a floor and number of roundings; layers that the floor fills are left out.
 void search_curves(const options& given, const asked& a, precision_findings& found) {
   for (const double floor : a.floors) {
@@ -117,30 +174,16 @@ void search_stages(const options& given, const asked& a, precision_findings& fou
   }
 }
 
-/// Each stage of vsm, lvsm and evsm2 on the scene, with a blur of nine taps.
+/// Each stage of vsm and lvsm on the scene, and the stores of evsm2 and evsm4.
 void search_on_scene(const options& given, const asked& a, precision_findings& found) {
-  const frame input = load_input(given.scene, *given.how);
+  const auto cells = cells_on_scene(given, a);
+  const frame input = load_for(given.scene, *given.how, cells);
   found.scene = given.scene;
-  configuration c;
-  c.exponent = given.exponent;
-  c.overlap = given.overlap;
-  const auto all_stages = [&] {
+  for (const configuration& c : cells) {
+    const bool exponential = c.method == technique::evsm2 || c.method == technique::evsm4;
     for (const stage s : stages_of(c)) {
       if (s == stage::filter) continue;  // its arithmetic is no format of its own
-      found.on_scene.push_back(
-          bit_search::search_scene(input, c, s, given.tolerated, given.how->threads));
-    }
-  };
-  for (const double floor : a.floors) {
-    c.min_variance = floor;
-    for (const int n : a.layers) {
-      c.method = n == 1 ? technique::vsm : technique::lvsm;
-      c.layers = n;
-      all_stages();
-    }
-    c.method = technique::evsm2;
-    c.layers = 1;
-    for (const stage s : {stage::store, stage::blur}) {
+      if (exponential && (s == stage::weights || s == stage::shading)) continue;
       found.on_scene.push_back(
           bit_search::search_scene(input, c, s, given.tolerated, given.how->threads));
     }
@@ -149,13 +192,14 @@ void search_on_scene(const options& given, const asked& a, precision_findings& f
 
 void answer(const options& given) {
   const asked a = checked(given);
+  refuse_idle(given, a);
   const std::string command = "bitshade precision" +
                               (given.scene.empty() ? "" : " " + shell_quoted(given.scene)) +
                               given.arguments;
   const std::filesystem::path folder = given.out;
   precision_findings found;
   found.tolerated = given.tolerated;
-  const bool everything = given.scene.empty() && !given.adversarial && !given.joint;
+  const bool everything = given.everything();
   if (!given.out.empty()) make_output_folder(folder);
   if (everything || given.adversarial) {
     search_curves(given, a, found);
@@ -238,6 +282,8 @@ void add_precision(CLI::App& app) {
   command->add_option("--out", o->out, "Folder for precision.html, .csv and .json")
       ->option_text("DIR");
   command->add_flag("--json", o->json, "Print JSON instead of text");
+  add_filter_options(*command, o->filters, filter_group);
+  o->app = command;
   given->how = add_scene_options(*command);
   command->footer(
       "Examples:\n"

@@ -1,18 +1,17 @@
 // `bitshade render`: one configuration of a scene as pictures.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "command/animate.hpp"
 #include "command/commands.hpp"
+#include "command/option_use.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
-#include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
-#include "report/folder.hpp"
+#include "report/cell_pictures.hpp"
 #include "report/maps.hpp"
 #include "run/lloyd.hpp"
 #include "run/pipeline.hpp"
@@ -27,19 +26,8 @@ struct options {
   std::shared_ptr<study_options> cell;
   std::string out = "bitshade-out";
   int frames = 0, steps = 1;  ///< of a series
-  bool json = false;
+  bool steps_given = false, json = false;
 };
-
-struct named_picture {
-  std::string name, meaning;
-  picture content;
-};
-
-std::vector<double> without_gaps(std::vector<double> values) {
-  for (double& v : values)
-    if (v != v) v = 1;
-  return values;
-}
 
 /// How long relaxation takes and how far from the optimum it ends, all or two splits a frame.
 std::string lloyd_table(const std::vector<lloyd_comparison>& list) {
@@ -69,6 +57,9 @@ void render(const options& given) {
                       std::to_string(cells.size()) +
                       ": give one technique, one format and one layer count, or use study");
   const configuration& c = cells.front();
+  check_use(*given.cell->app, cells);
+  if (given.steps_given && !(c.method == technique::lvsm && c.layers > 1 && relaxes(c.splits)))
+    throw usage_error("--steps are of Lloyd relaxation: give --splits lloyd, or leave it out");
   if (given.frames > 0) {
     animate({given.scene, *given.how, c, given.out, given.frames, given.steps, given.json});
     return;
@@ -89,36 +80,22 @@ void render(const options& given) {
       measure(input, {done.visibility, exact.visibility, geometric, pcf, done.layer});
 
   const auto seen = without_gaps(done.visibility), truth = without_gaps(geometric);
-  std::vector<named_picture> pictures;
-  pictures.push_back({"shaded", "the scene with this shadow", shaded_map(input, seen)});
-  pictures.push_back(
-      {"visibility", "black: no light, white: all of it", visibility_map(seen, w, h)});
-  pictures.push_back(
-      {"layers", "a colour a layer, darkened by the shadow", layer_map(input, seen, done.layer)});
-  pictures.push_back({"error", "against the geometric truth", error_map(seen, truth, w, h)});
+  cell_pictures pictures(given.out, given.scene, c);
+  pictures.add("shaded", "the scene with this shadow", shaded_map(input, seen));
+  pictures.add("visibility", "black: no light, white: all of it", visibility_map(seen, w, h));
+  pictures.add("layers", "a colour a layer, darkened by the shadow",
+               layer_map(input, seen, done.layer));
+  pictures.add("error", "against the geometric truth", error_map(seen, truth, w, h));
   if (!c.exact())
-    pictures.push_back({"format-error", "against itself in exact arithmetic",
-                        error_map(seen, without_gaps(exact.visibility), w, h)});
+    pictures.add("format-error", "against itself in exact arithmetic",
+                 error_map(seen, without_gaps(exact.visibility), w, h));
 
-  const std::filesystem::path folder = given.out;
-  make_output_folder(folder);
-  const std::string layers = c.method == technique::lvsm ? std::to_string(c.layers) : "";
-  const std::string stem =
-      file_stem(given.scene) + "-" + std::string(name_of(c.method)) + layers + "-" + c.format + "-";
-  nlohmann::ordered_json files = nlohmann::ordered_json::object();
-  std::string list;
-  for (const named_picture& p : pictures) {
-    const std::string path = (folder / (stem + p.name + ".png")).string();
-    write_file(path, encode_png(p.content));
-    files[p.name] = path;
-    list += "  " + path + "  (" + p.meaning + ")\n";
-  }
   std::vector<lloyd_comparison> relaxed;
   if (relaxes(c.splits) && c.layers > 1) relaxed = compare_with_optimum(input, c, threads);
   if (given.json) {
     nlohmann::ordered_json all{{"scene", given.scene},
                                {"configuration", c.key()},
-                               {"files", files},
+                               {"files", pictures.files()},
                                {"splits", done.splits},
                                {"format_error_rmse", m.format.rmse},
                                {"format_error_largest", m.format.largest},
@@ -141,7 +118,7 @@ void render(const options& given) {
   if (!relaxed.empty()) std::cout << lloyd_table(relaxed);
   for (const std::string& note : done.notes)
     for (const std::string& line : wrap("Note: " + note + ".", 80)) std::cout << line << '\n';
-  std::cout << list;
+  std::cout << pictures.list();
 }
 
 }  // namespace
@@ -179,7 +156,10 @@ void add_render(CLI::App& app) {
       "  bitshade render garden --technique vsm --format half\n"
       "  bitshade render garden --layers 2 --splits 0.94 --overlap 0 --min-variance 1e-7\n"
       "  bitshade render beams --layers 4 --splits lloyd --lloyd-splits 2 --animate 48");
-  command->callback([given] { render(*given); });
+  command->callback([given, command] {
+    given->steps_given = command->count("--steps") > 0;
+    render(*given);
+  });
 }
 
 }  // namespace bitshade::command

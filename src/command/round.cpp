@@ -37,7 +37,9 @@ std::vector<std::string> numbers_of(const std::string& line, std::size_t count) 
   return words;
 }
 
-[[noreturn]] void refuse(std::uint64_t line, std::string text, const std::string& wanted) {
+/// The lines before this one are answered: their array ends, so that it can be read.
+[[noreturn]] void refuse(bool json, std::uint64_t line, std::string text, const std::string& wanted) {
+  if (json) std::cout << "\n]\n";
   constexpr std::size_t shown = 40;
   if (text.size() > shown) text = text.substr(0, shown) + "...";
   for (char& c : text) {
@@ -62,14 +64,16 @@ void round_lines(const options& given) {
   while (std::getline(std::cin, line)) {
     ++number;
     const std::vector<std::string> texts = numbers_of(line, count);
-    if (texts.size() != count) refuse(number, line, "three numbers between blanks, as r11g11b10 takes them");
+    if (texts.size() != count) refuse(given.json, number, line, "three numbers between blanks, as r11g11b10 takes them");
     std::uint64_t word = 0;
     int position = 0;
     std::string values;
     for (std::size_t i = 0; i < count; ++i) {
       const encoding& e = format.components[i];
       const auto x = parse_number(texts[i]);
-      if (!x) refuse(number, texts[i], "a number: write a decimal, a C99 hexadecimal float, a ratio a/b, inf or nan");
+      if (!x)
+        refuse(given.json, number, texts[i],
+               "a number: write a decimal, a C99 hexadecimal float, a ratio a/b, inf or nan");
       const std::uint64_t bits = encode(e, *x, r, rounding_bits(seed, number, i));
       word |= bits << position;
       position += e.width;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/commands.hpp"
+#include "command/option_use.hpp"
 #include "command/study_job.hpp"
 #include "command/study_parts.hpp"
 #include "io/error.hpp"
@@ -60,6 +61,7 @@ void study(const options& given) {
   }
   for (std::size_t i = 0; i < result.sections.size(); ++i)
     print(result.sections[i], result.done[i], job.request.verify_plan);
+  print_notes(given.cells->notes);
   print_end(job, result);
 }
 

@@ -8,6 +8,7 @@
 
 #include "command/filter_options.hpp"
 #include "command/format_options.hpp"
+#include "command/named_option.hpp"
 #include "command/technique_options.hpp"
 #include "io/build.hpp"
 #include "io/error.hpp"
@@ -122,6 +123,7 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
   auto options = std::make_shared<study_options>(initial);
   study_options* const o = options.get();
   configuration* const c = &o->common;
+  o->app = &app;
   const auto keep = [options](const std::string&) { return std::string(); };
   const std::string group = "What is computed";
   // The first option holds the options alive as long as the application.
@@ -157,18 +159,8 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
       ->option_text("N")
       ->group(group);
   add_filter_options(app, o->common, group);
-  app.add_option_function<std::string>(
-         "--second-moment",
-         [c](const std::string& name) {
-           const auto at = std::find(second_moment_names.begin(), second_moment_names.end(), name);
-           if (at == second_moment_names.end())
-             throw usage_error("--second-moment: there is no '" + name + "'; " +
-                               suggest(name, second_moment_names));
-           c->second = static_cast<second_moment>(at - second_moment_names.begin());
-         },
-         "square, square-of-stored or centred: what stands beside the depth")
-      ->default_str(std::string(second_moment_names[static_cast<std::size_t>(c->second)]))
-      ->option_text("NAME")
+  add_named_option(app, "--second-moment", c->second, second_moment_names,
+                   "square, square-of-stored or centred: what stands beside the depth")
       ->group(group);
   app.add_flag("--noise-floor", c->noise_floor, "Never a floor under what the format's noise needs")
       ->group(group);

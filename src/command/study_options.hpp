@@ -21,6 +21,7 @@ struct study_options {
   bool layers_given = false;
   std::string splits = "uniform";
   configuration common;  ///< everything that is not a list
+  const CLI::App* app = nullptr;  ///< whose options they are
 
   /// Every technique in every layer count (where it has layers) and every format, in that order;
   /// cells that share all but the format stand side by side.
@@ -34,5 +35,9 @@ std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_opti
 
 /// The arguments of this run as a shell reads them back, without those that `left_out` names.
 std::string arguments_of(const CLI::App& app, const std::vector<std::string>& left_out);
+
+/// The same without those that are not used by `c` (option_use.hpp), which a run of it refuses.
+std::string arguments_of(const CLI::App& app, std::vector<std::string> left_out,
+                         const configuration& c);
 
 }  // namespace bitshade::command

@@ -25,6 +25,9 @@ void add_layer_options(CLI::App& app, configuration& c) {
                    "own, nearer or every: the receiver's own layer, or the darkest of it and all "
                    "in front, or of all")
       ->group(what);
+  add_named_option(app, "--layer-warp", c.warping, layer_warp_names,
+                   "clamped or unclamped: what a layer makes of depths beyond its ends")
+      ->group(what);
   app.add_flag("--direct-index", c.direct_index, "Compute a uniform layer's index, do not search")
       ->group(what);
   app.add_flag("--one-pass", c.one_pass,

@@ -9,7 +9,7 @@ class App;
 
 namespace bitshade::command {
 
-/// Adds --transition, --lookup, --direct-index and --min-width.
+/// Adds --transition, --lookup, --layer-warp, --direct-index, --one-pass and --min-width.
 void add_layer_options(CLI::App& app, configuration& c);
 
 /// Adds --bleeding-*, the exponents, --terms and what concerns four moments.

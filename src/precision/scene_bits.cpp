@@ -14,7 +14,9 @@ namespace {
 bool exponential(const configuration& how) {
   return how.method == technique::evsm2 || how.method == technique::evsm4;
 }
-bool stores(stage s) { return s == stage::store || s == stage::blur || s == stage::mips; }
+bool stores(stage s) {
+  return s == stage::store || s == stage::resolve || s == stage::blur || s == stage::mips;
+}
 
 int widest(const configuration& how, stage s) {
   if (s == stage::weights || s == stage::shading) return 23;
@@ -26,9 +28,9 @@ const char* unit_of(const configuration& how, stage s) {
   return s == stage::shading || exponential(how) ? "significand" : "unorm";
 }
 
-/// Roundings that a stage makes on its own: the store one, a blur two, mips one a level.
-int roundings_of(const frame& scene, stage s) {
-  if (s == stage::blur) return 2;
+/// Roundings that a stage makes on its own: the store one, a blur one a pass, mips one a level.
+int roundings_of(const frame& scene, const configuration& how, stage s) {
+  if (s == stage::blur) return how.filtered.way == blur_way::one_pass ? 1 : 2;
   if (s == stage::mips) return mip_levels(scene.depth.width, scene.depth.height) - 1;
   return 1;
 }
@@ -38,7 +40,7 @@ int predicted_bits(const frame& scene, const configuration& how, stage s, double
   q.tolerated = tolerated;
   q.floor_deviation = std::sqrt(how.min_variance);
   q.width = uniform_layer_width(how.method == technique::lvsm ? how.layers : 1, how.overlap);
-  q.roundings = roundings_of(scene, s);
+  q.roundings = roundings_of(scene, how, s);
   const double floor = layer_floor_variance(q);
   if (s == stage::weights) {
     return fewest_bits(tolerated, 40,

@@ -40,12 +40,6 @@ std::string table_of(const blame& b) {
                         body);
 }
 
-std::vector<double> without_gaps(std::vector<double> values) {
-  for (double& v : values)
-    if (v != v) v = 1;
-  return values;
-}
-
 }  // namespace
 
 std::string blame_sentence(const blame& b) {

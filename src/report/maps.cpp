@@ -50,6 +50,13 @@ void legend_into(picture& p, int top) {
 
 }  // namespace
 
+std::vector<double> without_gaps(std::span<const double> values) {
+  std::vector<double> out(values.begin(), values.end());
+  for (double& v : out)
+    if (v != v) v = 1;
+  return out;
+}
+
 picture visibility_map(std::span<const double> visibility, int width, int height) {
   picture p(width, height, 1);
   std::transform(visibility.begin(), visibility.end(), p.bytes.begin(), grey);

@@ -9,6 +9,9 @@
 
 namespace bitshade {
 
+/// Values with 1, white, where there is no receiver and so no number.
+std::vector<double> without_gaps(std::span<const double> values);
+
 /// Grey, black where no light arrives and white where all of it does; pixels without a receiver
 /// are white.
 picture visibility_map(std::span<const double> visibility, int width, int height);

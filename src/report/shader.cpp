@@ -30,7 +30,9 @@ std::string left_out(const configuration& how) {
   const auto add = [&](bool is, const char* what) {
     if (is) text += (text.empty() ? "" : ", ") + std::string(what);
   };
-  add(how.slope_term && stores_variance(how.method), "the slope term");
+  add(how.slope_term && uses_floor(how.method), "the slope term");
+  add(how.warping == layer_warp::unclamped && how.method == technique::lvsm,
+      "depths of a layer without the clamp");
   add(how.transition && how.method == technique::lvsm, "the blend of two layers");
   add(how.lookup != layer_lookup::own && how.method == technique::lvsm,
       "lookups of other layers than the receiver's own");

@@ -114,7 +114,7 @@ std::string text_effects(std::span<const row> rows) {
                                                  : "";
     if (e.by.size() != rows.size() && e.by.size() <= 3)
       for (const std::string& label : e.by) who += (who.empty() ? "" : ", ") + label;
-    const std::string head = "  " + pad_right(name, 23) + (e.needed ? " yes  " : " no   ");
+    const std::string head = "  " + pad_right(name, 24) + (e.needed ? " yes  " : " no   ");
     std::size_t n = 0;
     for (const std::string& text :
          wrap(e.evidence + (who.empty() ? "" : " (" + who + ")"), 80 - columns(head)))

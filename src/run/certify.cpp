@@ -207,11 +207,12 @@ void refuse_uncovered(const configuration& how) {
   if (how.exact())
     throw usage_error("exact arithmetic needs no certificate: name a format, such as unorm16");
   if (how.lookup != layer_lookup::own || how.direct_index || how.slope_term || how.noise_floor ||
-      how.powered() || how.second != second_moment::square) {
+      how.powered() || how.second != second_moment::square ||
+      how.warping != layer_warp::clamped) {
     throw usage_error(
-        "certificates are derived for one layer a receiver and the plain square: leave out "
-        "--lookup, --direct-index, --slope-term, --noise-floor, --bleeding-power and "
-        "--second-moment");
+        "certificates are derived for one clamped layer a receiver and the plain square: leave "
+        "out --lookup, --direct-index, --layer-warp, --slope-term, --noise-floor, "
+        "--bleeding-power and --second-moment");
   }
   if (how.filtered.msaa > 1 || how.filtered.lookups > 1 ||
       how.filtered.way != blur_way::separable || how.filtered.shape != blur_shape::gaussian) {

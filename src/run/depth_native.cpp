@@ -160,6 +160,9 @@ void run_depth_exact(run_context& run) {
   }
   configuration kernel = run.how;
   if (!takes_samples(kernel.method)) kernel.filtered.msaa = kernel.filtered.lookups = 1;
+  // Depths are compared, not averaged: they have no mips, and one probe a lookup.
+  if (kernel.filter == texel_filter::trilinear) kernel.filter = texel_filter::bilinear;
+  kernel.max_anisotropy = 1;
   run.result.visibility = truth_pcf(run.scene, kernel, run.threads);
 }
 

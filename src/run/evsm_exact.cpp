@@ -17,6 +17,7 @@ struct evsm_map {
   evsm_constants constants;
   bool four = false;
   double min_variance = 0;
+  bool slope_term = false;
 
   std::size_t channels() const { return four ? 4 : 2; }
   template <class T>
@@ -33,6 +34,11 @@ struct evsm_map {
     if (!four) return positive;
     return evsm_bound(positive, evsm_negative_bound(m[2], m[3], t, constants, min_variance));
   }
+  template <class T>
+  void add_slope(const T& slope, std::span<T> out) const {
+    add_warped_slope(slope, constants.positive, out[0], out[1]);
+    if (four) add_warped_slope(slope, constants.negative, out[2], out[3]);
+  }
   /// Without a floor a single depth leaves no variance: a step.
   std::optional<double> flat_light(double x, double t) const {
     if (min_variance != 0) return std::nullopt;
@@ -44,6 +50,7 @@ evsm_map map_of(const configuration& how) {
   evsm_map map;
   map.four = how.method == technique::evsm4;
   map.min_variance = how.min_variance;
+  map.slope_term = how.slope_term;
   map.constants = {how.exponent, map.four ? how.negative_exponent : how.exponent, 0};
   return map;
 }

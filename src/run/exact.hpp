@@ -59,8 +59,10 @@ class exact_engine {
 
   void generate(const interval& layer) {
     const stopwatch watch(times_.map_seconds);
-    texels_ = moments(layer);
-    const auto square = widened<light_limbs>(moments::squared(texels_.width())) << (2 * scale);
+    // Without the clamp a layer's depths are a line of the whole range's, on which p is the same.
+    texels_ = moments(how_.warping == layer_warp::clamped ? layer : interval{0, 1});
+    const auto width = moments(layer).width();
+    const auto square = widened<light_limbs>(moments::squared(width)) << (2 * scale);
     layer_floor_ = square < floor_ ? square : floor_;
     levels_.clear();
     levels_.emplace_back(scene_.depth.width, scene_.depth.height);

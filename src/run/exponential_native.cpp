@@ -7,6 +7,7 @@
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
 #include "run/natural.hpp"
+#include "run/slope.hpp"
 #include "run/variance.hpp"
 
 namespace bitshade {
@@ -33,6 +34,7 @@ class evsm_technique {
     positive_warp_row<T>(depth.row(y), constants_, row, count);
     if (four_) negative_warp_row<T>(depth.row(y), constants_, row, count);
     for (std::size_t i = 0; i < row.size(); i += 2) row[i + 1] = row[i] * row[i];
+    if (how_.slope_term) add_evsm_slope(depth, y, constants_, count, row);
   }
 
   T light(std::span<const T> m, const T& t) const {

@@ -19,7 +19,8 @@
 #include "bitshade/texture/blur.hpp"
 #include "bitshade/texture/mip.hpp"
 #include "run/engines.hpp"
-#include "run/exact_grid.hpp"
+#include "run/exact_lookup.hpp"
+#include "run/exact_slope.hpp"
 #include "run/parallel.hpp"
 
 namespace bitshade {
@@ -31,18 +32,15 @@ inline constexpr std::size_t first_limbs = 3;
 inline constexpr std::size_t second_limbs = 8;
 inline constexpr std::size_t last_limbs = 28;
 
-/// A texel of a lookup with its exact weight: `share` of 2^-8 times `part` of 2^-48.
-struct exact_texel {
-  int level, x, y;
-  std::uint64_t part;
-  std::uint64_t share;
-};
-
 /// Technique: a Map as in texel_technique.hpp. One with
 ///
 ///   std::optional<double> flat_light(double x, double t) const;
 ///
-/// decides itself where all texels of a footprint are x: what enclosures of e^x cannot.
+/// decides itself where all texels of a footprint are x: what enclosures of e^x cannot. One with
+///
+///   bool slope_term;  template <class T> void add_slope(const T& slope, std::span<T> out) const;
+///
+/// adds a texel's slope_variance() to what it stores.
 template <class Technique>
 class filtered_exact {
  public:
@@ -66,7 +64,7 @@ class filtered_exact {
         const auto same = [&](const image<float>* map) {
           return map->at(x, y) == map->at(x - 1, y);
         };
-        if (x == 0 || !std::all_of(maps_.begin(), maps_.end(), same)) {
+        if (x == 0 || slope_term() || !std::all_of(maps_.begin(), maps_.end(), same)) {
           texel_at<first_limbs>(x, y, texel, sum);
         }
         for (std::size_t c = 0; c < channels; ++c) chains_[c].front().at(x, y) = sum[c];
@@ -116,10 +114,6 @@ class filtered_exact {
   }
 
  private:
-  struct exact_lookup {
-    std::vector<exact_texel> texels;  ///< those that several probes share appear several times
-    int probes = 1;
-  };
   struct certified_light {
     double value;
     bool certain;
@@ -129,7 +123,7 @@ class filtered_exact {
     const image<float>& depth = run_.scene.depth;
     std::vector<exact_lookup> lookups;
     each_lookup(r, run_.how.filtered.lookups, depth.width, depth.height,
-                [&](const receiver& there) { lookups.push_back(lookup_of(there)); });
+                [&](const receiver& there) { lookups.push_back(exact_lookup_of(run_, there)); });
     const auto planes = [&](const exact_texel& at, std::span<ball<first_limbs>> out) {
       for (std::size_t c = 0; c < out.size(); ++c) {
         out[c] = chains_[c][static_cast<std::size_t>(at.level)].at(at.x, at.y);
@@ -169,58 +163,22 @@ class filtered_exact {
     const number share(1.0 / static_cast<double>(maps_.size()));
     for (std::size_t s = 0; s < maps_.size(); ++s) {
       technique_.template texel<number>(number(clamp_depth(maps_[s]->at(x, y))), one);
+      if constexpr (knows_slopes) {
+        if (technique_.slope_term) {
+          technique_.add_slope(exact_slope_at<number>(*maps_[s], x, y), std::span(one));
+        }
+      }
       for (std::size_t c = 0; c < sum.size(); ++c) {
         sum[c] = s == 0 ? one[c] * share : sum[c] + one[c] * share;
       }
     }
   }
 
-  exact_lookup lookup_of(const receiver& r) const {
-    const image<float>& depth = run_.scene.depth;
-    const auto u = static_cast<std::int64_t>(static_cast<double>(r.u) * 0x1p24);
-    const auto v = static_cast<std::int64_t>(static_cast<double>(r.v) * 0x1p24);
-    exact_lookup result;
-    if (run_.look.plain()) {
-      add_level(result.texels, u, v, 0, 256);
-      return result;
-    }
-    const auto probes = probes_of(r, depth.width, depth.height, run_.look.max_anisotropy);
-    const int levels = run_.look.mips ? mip_levels(depth.width, depth.height) : 1;
-    const auto blend = blend_levels(probes.lambda, levels, map_mip_bits);
-    const auto far = on_grid(blend.fraction, map_mip_bits);
-    for (const auto& at : probes.offsets) {
-      const auto pu = u + static_cast<std::int64_t>(at.du * 0x1p24);
-      const auto pv = v + static_cast<std::int64_t>(at.dv * 0x1p24);
-      add_level(result.texels, pu, pv, blend.near, 256 - far);
-      if (far != 0) add_level(result.texels, pu, pv, blend.far, far);
-    }
-    result.probes = static_cast<int>(probes.offsets.size());
-    return result;
+  static constexpr bool knows_slopes = requires(const Technique& t) { t.slope_term; };
+  bool slope_term() const {
+    if constexpr (knows_slopes) return technique_.slope_term;
+    return false;
   }
-
-  void add_level(std::vector<exact_texel>& to, std::int64_t u, std::int64_t v, int level,
-                 std::uint64_t share) const {
-    constexpr std::int64_t one = std::int64_t{1} << 24;
-    const int width = mip_size(run_.scene.depth.width, level);
-    const int height = mip_size(run_.scene.depth.height, level);
-    std::int64_t x = u * width, y = v * height, fx = 0, fy = 0;
-    if (run_.look.filter == texel_filter::bilinear) {
-      x -= one / 2;
-      y -= one / 2;
-      fx = x & (one - 1);
-      fy = y & (one - 1);
-    }
-    for (int j = 0; j < 2; ++j) {
-      for (int i = 0; i < 2; ++i) {
-        const auto part =
-            static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
-        if (part == 0) continue;
-        to.push_back({level, wrap(static_cast<int>((x >> 24) + i), width, map_address),
-                      wrap(static_cast<int>((y >> 24) + j), height, map_address), part, share});
-      }
-    }
-  }
-
   /// The light of a receiver from texels that `read` gives.
   template <std::size_t Limbs, class Read>
   ball<Limbs> light(const exact_lookup& lookup, float t, Read read) const {
@@ -319,6 +277,7 @@ class filtered_exact {
           for (int x = std::max(0, from(at.x)); x < std::min(depth.width, to(at.x)); ++x) {
             for (const image<float>* map : maps_) {
               if (clamp_depth(map->at(x, y)) != x0) return std::nullopt;
+              if (slope_term() && has_slope(*map, x, y)) return std::nullopt;
             }
           }
         }

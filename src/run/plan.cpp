@@ -83,14 +83,17 @@ effect transition_effect(const configuration& how, const receivers_seen& seen) {
 }
 
 effect mips_effect(const configuration& how, const receivers_seen& seen) {
-  effect e{"mips", how.filter == texel_filter::trilinear, seen.by_level > 0, ""};
-  e.evidence = e.asked ? count_of(seen.by_level, seen.all, "receivers read a level above 0")
-                       : "the filter is not trilinear";
+  const bool trilinear = how.filter == texel_filter::trilinear;
+  effect e{"mips", trilinear && blurs_its_map(how.method), seen.by_level > 0, ""};
+  e.evidence = e.asked      ? count_of(seen.by_level, seen.all, "receivers read a level above 0")
+               : !trilinear ? "the filter is not trilinear"
+                            : std::string(name_of(how.method)) + " reads level 0 alone";
   return e;
 }
 
 effect anisotropy_effect(const configuration& how, const receivers_seen& seen) {
-  effect e{"anisotropy", how.max_anisotropy > 1, seen.by_probes > 0, ""};
+  effect e{"anisotropy", how.max_anisotropy > 1 && blurs_its_map(how.method), seen.by_probes > 0,
+           ""};
   e.evidence = e.asked ? count_of(seen.by_probes, seen.all, "receivers read more than one probe")
                        : "one probe a lookup";
   return e;
@@ -144,6 +147,9 @@ std::optional<double> smallest_function_of(const configuration& how) {
     case technique::msm:
     case technique::deep:
       return 0;
+    case technique::lvsm:  // depths of both signs may cancel
+      if (layered(how) && how.warping == layer_warp::unclamped) return 0;
+      return std::nullopt;
     default:
       return std::nullopt;
   }

@@ -7,6 +7,7 @@
 #include "bitshade/shadow/lloyd.hpp"
 #include "bitshade/shadow/moments.hpp"
 #include "io/error.hpp"
+#include "run/slope.hpp"
 
 namespace bitshade {
 
@@ -25,19 +26,20 @@ class staged_variance {
   }
   template <class Keep>
   void fill(const image<float>& depth, int y, std::span<V> row, Keep keep) const {
-    warp_row<V>(depth.row(y), layer_, row, 2);
+    warp_row<V>(depth.row(y), layer_, row, 2, how_.warping);
     if (how_.second == second_moment::centred) {
       centred_square_row<V>(row, 2);
     } else {
       if (how_.second == second_moment::square_of_stored) keep(row);
       square_row<V>(row, 2);
     }
+    if (how_.slope_term) add_layer_slope<V>(depth, y, layer_, how_, row);
   }
   V light(std::span<const V> values, const V& t) const {
     const auto at = how_.second == second_moment::centred
                         ? mean_and_centred_variance(values[0], values[1])
                         : mean_and_variance(values[0], values[1]);
-    return chebyshev(at, warp(t, layer_), floor_);
+    return chebyshev(at, warp(t, layer_, how_.warping), floor_);
   }
   shading_input shading(const std::vector<double>& values, double t) const {
     return {values[0], values[1],         t,
@@ -65,6 +67,7 @@ class staged_evsm {
     positive_warp_row<V>(depth.row(y), constants_, row, count);
     if (four_) negative_warp_row<V>(depth.row(y), constants_, row, count);
     for (std::size_t i = 0; i < row.size(); i += 2) row[i + 1] = row[i] * row[i];
+    if (how_.slope_term) add_evsm_slope<V>(depth, y, constants_, count, row);
   }
   V light(std::span<const V> m, const V& t) const {
     const V bound = evsm_positive_bound(m[0], m[1], t, constants_, how_.min_variance);
@@ -100,11 +103,10 @@ void refuse_uncovered(const configuration& how, const stage_choices& choices) {
     throw usage_error("stages of " + std::string(name_of(how.method)) +
                       " cannot be made exact one by one: use vsm, lvsm, evsm2 or evsm4");
   }
-  if (how.lookup != layer_lookup::own || how.direct_index || how.noise_floor || how.slope_term ||
-      how.powered()) {
+  if (how.lookup != layer_lookup::own || how.direct_index || how.noise_floor || how.powered()) {
     throw usage_error(
         "stages are compared for one layer a receiver under one floor: leave out --lookup, "
-        "--direct-index, --noise-floor, --slope-term and --bleeding-power");
+        "--direct-index, --noise-floor and --bleeding-power");
   }
   if (relaxed(how) && (how.lloyd != lloyd_choices{} || how.min_width != 0)) {
     throw usage_error(
@@ -144,8 +146,8 @@ std::vector<double> unrounded_splits(const frame& scene, int layers) {
 template <class T, template <class> class Technique>
 void run_in(const frame& scene, const configuration& how, const stage_choices& choices,
             const storage_format& storage, const lookup& look, const layer_table& layers,
-            int threads, cell& result) {
-  staged_engine<T, Technique> engine(scene, how, choices, storage, look, threads);
+            int fraction_bits, int threads, cell& result) {
+  staged_engine<T, Technique> engine(scene, how, choices, storage, look, fraction_bits, threads);
   run_staged_layers(engine, scene, layers, threads, result);
 }
 
@@ -155,6 +157,7 @@ std::vector<stage> stages_of(const configuration& how) {
   std::vector<stage> all;
   if (relaxed(how)) all.push_back(stage::splits);
   all.push_back(stage::store);
+  if (how.filtered.msaa > 1) all.push_back(stage::resolve);
   if (how.blurred()) all.push_back(stage::blur);
   if (how.filter == texel_filter::trilinear) all.push_back(stage::mips);
   if (how.filter == texel_filter::bilinear && how.max_anisotropy == 1)
@@ -182,11 +185,13 @@ cell run_staged(const frame& scene, const configuration& asked, const stage_choi
   result.splits = layers.splits;
   result.layer = layers.own;
   const lookup look = lookup_of(how, effects);
+  const int fractions = effects.simulates("blur fractions") ? how.filtered.fraction_bits : 0;
   const auto run = [&]<class T>(T) {
     if (is_variance(how.method)) {
-      run_in<T, staged_variance>(scene, how, choices, storage, look, layers, threads, result);
+      run_in<T, staged_variance>(scene, how, choices, storage, look, layers, fractions, threads,
+                                 result);
     } else {
-      run_in<T, staged_evsm>(scene, how, choices, storage, look, layers, threads, result);
+      run_in<T, staged_evsm>(scene, how, choices, storage, look, layers, fractions, threads, result);
     }
   };
   storage.wide ? run(double{}) : run(float{});

@@ -11,9 +11,9 @@
 #include "bitshade/shadow/chebyshev.hpp"
 #include "bitshade/shadow/layers.hpp"
 #include "bitshade/shadow/moments.hpp"
-#include "bitshade/texture/blur.hpp"
 #include "bitshade/texture/trilinear.hpp"
 #include "run/lookup.hpp"
+#include "run/map_stages.hpp"
 #include "run/parallel.hpp"
 #include "run/shading_arithmetic.hpp"
 #include "run/stages.hpp"
@@ -71,13 +71,13 @@ template <class T, template <class> class Technique>
 class staged_engine {
  public:
   staged_engine(const frame& scene, const configuration& how, const stage_choices& choices,
-                const storage_format& storage, const lookup& look, int threads)
+                const storage_format& storage, const lookup& look, int fraction_bits, int threads)
       : scene_(scene),
         how_(how),
         choices_(choices),
         storage_(storage),
         look_(look),
-        blur_(blur_of(how)),
+        fraction_bits_(fraction_bits),
         threads_(threads),
         native_(how),
         exact_(how) {
@@ -87,24 +87,11 @@ class staged_engine {
   void generate(const interval& layer) {
     native_.begin(layer);
     exact_.begin(layer);
-    staged_image<T> texels;
-    const image<float>& depth = scene_.depth;
-    const int channels = native_.channels();
-    texels.in_format = has(stage::store);
-    if (texels.in_format) {
-      texels.native = pass<T>(depth.width, depth.height, channels, [&](int y, std::span<T> row) {
-        native_.fill(depth, y, row, [&](std::span<T> r) { round_row(storage_, r); });
-      });
-    } else {
-      texels.exact = pass<staged_exact>(
-          depth.width, depth.height, channels, [&](int y, std::span<staged_exact> row) {
-            exact_.fill(depth, y, row, [](std::span<staged_exact>) {});
-          });
-    }
-    if (blur_.weights.size() > 1) blur(texels);
+    staged_image<T> texels = resolved();
+    if (how_.blurred()) blur(texels);
     chain_.clear();
     chain_.push_back(std::move(texels));
-    const int levels = look_.mips ? mip_levels(depth.width, depth.height) : 1;
+    const int levels = look_.mips ? mip_levels(scene_.depth.width, scene_.depth.height) : 1;
     for (int level = 1; level < levels; ++level) chain_.push_back(next_level(chain_.back(), level));
     natives_.clear();
     exacts_.clear();
@@ -117,6 +104,45 @@ class staged_engine {
     }
   }
 
+  /// The lights of a receiver's lookups; bilinear weights and all else as one lookup has them.
+  std::vector<staged_exact> lights(const receiver& r) const {
+    std::vector<staged_exact> all;
+    each_lookup(r, how_.filtered.lookups, scene_.depth.width, scene_.depth.height,
+                [&](const receiver& there) { all.push_back(light(there)); });
+    return all;
+  }
+
+  std::vector<staged_exact> blended(const std::vector<staged_exact>& near,
+                                    const std::vector<staged_exact>& far, const receiver& r,
+                                    double split) const {
+    std::vector<staged_exact> all;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      all.push_back(in_shading([&](auto zero) {
+        using V = decltype(zero);
+        const V share = transition_share(clamp_depth(V(r.t)), split, how_.overlap);
+        return lerp(staged_value<V>(near[i]), staged_value<V>(far[i]), share);
+      }));
+    }
+    return all;
+  }
+  /// Less bleeding for each light, then their mean.
+  double finished(const std::vector<staged_exact>& lights) const {
+    const double alpha = on_split_grid(how_.bleeding_reduction);
+    if (alpha == 0 && lights.size() == 1) return lights.front().nearest();
+    return in_shading([&](auto zero) {
+             using V = decltype(zero);
+             const auto reduced = [&](const staged_exact& p) {
+               const V light = staged_value<V>(p);
+               return alpha == 0 ? light : reduce_bleeding(light, static_cast<V>(alpha));
+             };
+             V sum = reduced(lights.front());
+             for (std::size_t i = 1; i < lights.size(); ++i) sum = sum + reduced(lights[i]);
+             return lights.size() == 1 ? sum : sum / V(static_cast<int>(lights.size()));
+           })
+        .nearest();
+  }
+
+ private:
   staged_exact light(const receiver& r) const {
     std::vector<T> native(static_cast<std::size_t>(native_.channels()));
     std::vector<staged_exact> exact(native.size());
@@ -140,25 +166,6 @@ class staged_engine {
         native_.light(std::span<const T>(native), clamp_depth(static_cast<T>(r.t))));
   }
 
-  staged_exact blended(const staged_exact& near, const staged_exact& far, const receiver& r,
-                       double split) const {
-    return in_shading([&](auto zero) {
-      using V = decltype(zero);
-      const V share = transition_share(clamp_depth(V(r.t)), split, how_.overlap);
-      return lerp(staged_value<V>(near), staged_value<V>(far), share);
-    });
-  }
-  double finished(const staged_exact& p) const {
-    const double alpha = on_split_grid(how_.bleeding_reduction);
-    if (alpha == 0) return p.nearest();
-    return in_shading([&](auto zero) {
-             using V = decltype(zero);
-             return reduce_bleeding(staged_value<V>(p), static_cast<V>(alpha));
-           })
-        .nearest();
-  }
-
- private:
   bool has(stage s) const { return choices_.in_format.has(s); }
 
   /// What is combined after shading is so in its arithmetic.
@@ -178,19 +185,73 @@ class staged_engine {
     return out;
   }
 
+  /// The texels of one depth map.
+  staged_image<T> stored(const image<float>& depth) const {
+    staged_image<T> texels;
+    const int channels = native_.channels();
+    texels.in_format = has(stage::store);
+    if (texels.in_format) {
+      texels.native = pass<T>(depth.width, depth.height, channels, [&](int y, std::span<T> row) {
+        native_.fill(depth, y, row, [&](std::span<T> r) { round_row(storage_, r); });
+      });
+    } else {
+      texels.exact = pass<staged_exact>(
+          depth.width, depth.height, channels, [&](int y, std::span<staged_exact> row) {
+            exact_.fill(depth, y, row, [](std::span<staged_exact>) {});
+          });
+    }
+    return texels;
+  }
+
+  /// The map of the texels' centres, or the mean of its samples.
+  staged_image<T> resolved() const {
+    std::vector<staged_image<T>> samples;
+    for (const image<float>* depth : depth_maps(scene_, look_.samples)) {
+      samples.push_back(stored(*depth));
+    }
+    if (samples.size() == 1) return std::move(samples.front());
+    staged_image<T> out;
+    out.in_format = has(stage::resolve);
+    const auto run = [&]<class V>(std::vector<image<V>> all) {
+      return pass<V>(all[0].width, all[0].height, all[0].channels,
+                     [&](int y, std::span<V> row) { resolve_row<V>(all, y, row); });
+    };
+    std::vector<image<T>> native;
+    std::vector<image<staged_exact>> exact;
+    for (auto& sample : samples) {
+      if (out.in_format) {
+        native.push_back(sample.as_native());
+      } else {
+        exact.push_back(sample.as_exact());
+      }
+      sample = {};
+    }
+    if (out.in_format) {
+      out.native = run(std::move(native));
+    } else {
+      out.exact = run(std::move(exact));
+    }
+    return out;
+  }
+
   void blur(staged_image<T>& texels) const {
-    const auto run = [&]<class V>(const image<V>& in) {
-      const image<V> across =
-          pass<V>(in.width, in.height, in.channels,
-                  [&](int y, std::span<V> row) { blur_row_x<V>(in, blur_, map_address, y, row); });
-      return pass<V>(in.width, in.height, in.channels, [&](int y, std::span<V> row) {
-        blur_row_y<V>(across, blur_, map_address, y, row);
+    const auto native = [&](auto row, image<T>& out) {
+      for_rows(threads_, out.height, [&](int y) {
+        row(y);
+        round_row(storage_, out.row(y));
       });
     };
+    const auto exact = [&](auto row, image<staged_exact>& out) {
+      for_rows(threads_, out.height, row);
+    };
     if (has(stage::blur)) {
-      texels.native = run(texels.as_native());
+      texels.as_native();
+      blur_map(how_, fraction_bits_, texels.native, native);
     } else {
-      texels.exact = run(texels.as_exact());
+      texels.as_exact();
+      configuration one_blur = how_;  // without rounding every way is one blur
+      one_blur.filtered.way = blur_way::separable;
+      blur_map(one_blur, 0, texels.exact, exact);
     }
   }
 
@@ -273,7 +334,7 @@ class staged_engine {
   const stage_choices& choices_;
   const storage_format& storage_;
   const lookup look_;
-  const kernel blur_;
+  const int fraction_bits_;
   const int threads_;
   Technique<T> native_;
   Technique<staged_exact> exact_;
@@ -288,7 +349,7 @@ template <class Engine>
 void run_staged_layers(Engine& engine, const frame& scene, const layer_table& table, int threads,
                        cell& result) {
   result.visibility.assign(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
-  std::vector<staged_exact> waiting(table.blends.empty() ? 0 : scene.receivers.size());
+  std::vector<std::vector<staged_exact>> waiting(table.blends.empty() ? 0 : scene.receivers.size());
   for (std::size_t i = 0; i < table.intervals.size(); ++i) {
     const auto& users = table.users[i];
     if (users.empty()) continue;
@@ -297,11 +358,11 @@ void run_staged_layers(Engine& engine, const frame& scene, const layer_table& ta
       for (std::size_t k = first; k < last; ++k) {
         const std::uint32_t at = users[k];
         const receiver& r = scene.receivers[at];
-        const staged_exact p = engine.light(r);
+        auto p = engine.lights(r);
         if (table.blends.empty() || table.blends[at].near == table.blends[at].far) {
           result.visibility[at] = engine.finished(p);
         } else if (static_cast<int>(i) == table.blends[at].near) {
-          waiting[at] = p;
+          waiting[at] = std::move(p);
         } else {
           const double split = table.splits[static_cast<std::size_t>(table.blends[at].far)];
           result.visibility[at] = engine.finished(engine.blended(waiting[at], p, r, split));

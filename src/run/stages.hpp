@@ -16,21 +16,23 @@ namespace bitshade {
 ///
 ///   splits   Lloyd's reduction: moments of the map as a 16-bit format keeps them
 ///   store    warp and square in the arithmetic, then the first store
-///   blur     weights, sums and the store of both passes
+///   resolve  means of a texel's samples and their store
+///   blur     weights, sums and the store of each pass
 ///   mips     means and the store of every level
 ///   weights  bilinear fractions: the arithmetic's, or a device's few bits
 ///   filter   the interpolation's arithmetic; with mips or probes the weights count to it
-///   shading  the receiver's warp, mean and variance, floor, Chebyshev, transition and reduction
-enum class stage : std::uint8_t { splits, store, blur, mips, weights, filter, shading };
+///   shading  the receiver's warp, mean and variance, floor, Chebyshev, transition, reduction and
+///            the mean of several lookups
+enum class stage : std::uint8_t { splits, store, resolve, blur, mips, weights, filter, shading };
 
-inline constexpr std::array<std::string_view, 7> stage_names{"splits",  "store",  "blur",   "mips",
-                                                             "weights", "filter", "shading"};
+inline constexpr std::array<std::string_view, 8> stage_names{
+    "splits", "store", "resolve", "blur", "mips", "weights", "filter", "shading"};
 constexpr std::string_view name_of(stage s) { return stage_names[static_cast<std::size_t>(s)]; }
 
 class stage_set {
  public:
   static constexpr stage_set none() { return stage_set(0); }
-  static constexpr stage_set all() { return stage_set(0x7f); }
+  static constexpr stage_set all() { return stage_set(0xff); }
   static constexpr stage_set only(stage s) { return stage_set(bit(s)); }
   constexpr stage_set without(stage s) const { return stage_set(bits_ & ~bit(s)); }
   constexpr bool has(stage s) const { return (bits_ & bit(s)) != 0; }
@@ -58,7 +60,8 @@ std::vector<stage> stages_of(const configuration& how);
 /// none, what it gives for `exact`, wherever an enclosure decides the last bit.
 ///
 /// Failure  usage_error for other techniques and for what the stages do not cover: --lookup,
-///          --noise-floor, a shading arithmetic that shading_in does not know.
+///          --direct-index, --noise-floor, --bleeding-power, a shading arithmetic that shading_in
+///          does not know.
 cell run_staged(const frame& scene, const configuration& how, const stage_choices& choices,
                 int threads = 0);
 

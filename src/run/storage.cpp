@@ -3,15 +3,13 @@
 #include "bitshade/arithmetic/bulk.hpp"
 #include "bitshade/formats/name.hpp"
 #include "io/error.hpp"
+#include "io/format_names.hpp"
 
 namespace bitshade {
 
 storage_format storage_named(const std::string& format) {
   const auto code = parse_encoding(format);
-  if (!code) {
-    throw usage_error("unknown format '" + format + "': did you mean " +
-                      std::string(nearest_name(format)) + "?");
-  }
+  if (!code) throw usage_error("'" + format + "' " + explain_format_name(format));
   storage_format result;
   result.format = *code;
   result.bits = code->width;

@@ -104,13 +104,6 @@ void demand_equal_bits(const configuration& c, const cell& planned, const cell& 
   }
 }
 
-std::vector<double> without_gaps(std::span<const double> values) {
-  std::vector<double> out(values.begin(), values.end());
-  for (double& v : out)
-    if (v != v) v = 1;  // no receiver: white
-  return out;
-}
-
 picture_files input_pictures(const frame& input, references& known, const configuration& c) {
   const int w = input.view_width, h = input.view_height;
   const auto geometric = without_gaps(known.geometric(c)), pcf = without_gaps(known.pcf(c));
@@ -191,7 +184,7 @@ std::string cell_key(const std::string& input, const frame& scene, const configu
     for (const image<float>* depth : depth_maps(scene, c.filtered.msaa))
       d.update(std::as_bytes(std::span(depth->texels)));
   }
-  d.update(std::as_bytes(std::span<const char>(input + "\n" + c.key() + "\n" + program_version())));
+  d.update(std::as_bytes(std::span<const char>(input + "\n" + c.key() + "\n" + kernel_of(c) + "\n" + program_version())));
   return d.finish().substr(0, 32);
 }
 

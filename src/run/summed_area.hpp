@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bitshade/study/configuration.hpp"
 #include "bitshade/study/frame.hpp"
 #include "bitshade/texture/elementary.hpp"
 
@@ -38,8 +37,5 @@ inline texel_box box_of(const receiver& r, int width, int height, int smallest) 
   const range x = axis(r.u, r.du_dx, r.du_dy, width), y = axis(r.v, r.dv_dx, r.dv_dy, height);
   return {x.first, y.first, x.last, y.last};
 }
-
-/// The smallest box of a configuration: the width of its blur, which it takes the place of.
-inline int smallest_box(const configuration& how) { return std::max(1, how.blur_taps); }
 
 }  // namespace bitshade

@@ -33,7 +33,7 @@ void shade(run_context& run, const variance_technique<T>& technique, Mean mean) 
     for (std::size_t i = first; i < last; ++i) {
       const receiver& r = scene.receivers[i];
       if (!has_receiver(r)) continue;
-      const auto box = box_of(r, scene.depth.width, scene.depth.height, smallest_box(run.how));
+      const auto box = box_of(r, scene.depth.width, scene.depth.height, run.how.smallest_box);
       const T values[2] = {mean(box, 0), mean(box, 1)};
       const T p = technique.light(values, clamp_depth(static_cast<T>(r.t)));
       const auto alpha = static_cast<T>(on_split_grid(run.how.bleeding_reduction));
@@ -81,6 +81,11 @@ void run_codes(run_context& run, const image<T>& texels, const variance_techniqu
 /// Floating point: running sums in the arithmetic, stored after each direction.
 template <class T>
 void run_sums(run_context& run, image<T> texels, const variance_technique<T>& technique) {
+  if (run.how.noise_floor) {
+    throw usage_error("the noise of a summed-area table's sums in " + run.how.format +
+                      " grows with the map: leave out --noise-floor, or take a format of codes, "
+                      "such as unorm16, whose sums lose nothing");
+  }
   const double most = decode(run.storage.format, max_bits(run.storage.format));
   try {
     require_sat_fits(texels.width, texels.height, 1.0, most);

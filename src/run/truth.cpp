@@ -167,7 +167,7 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
       if (!has_receiver(r)) continue;
       const auto lit = make_lit(r);
       if (how.method == technique::savsm) {
-        const auto box = box_of(r, width, height, smallest_box(how));
+        const auto box = box_of(r, width, height, how.smallest_box);
         int count = 0;
         for (int s = 0; s < samples; ++s) {
           for (int y = box.y0; y < box.y1; ++y) {

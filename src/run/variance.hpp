@@ -16,6 +16,7 @@
 #include "bitshade/study/measures.hpp"
 #include "bitshade/texture/image.hpp"
 #include "bitshade/texture/mip.hpp"
+#include "run/slope.hpp"
 #include "run/storage.hpp"
 
 namespace bitshade {
@@ -25,6 +26,7 @@ namespace bitshade {
 inline int roundings_of(const configuration& how, const image<float>& depth) {
   const int mips =
       how.filter == texel_filter::trilinear ? mip_levels(depth.width, depth.height) - 1 : 0;
+  if (how.method == technique::savsm) return how.filtered.msaa > 1 ? 2 : 1;
   const int passes = !how.blurred() ? 0 : how.filtered.way == blur_way::one_pass ? 1 : 2;
   return 1 + (how.filtered.msaa > 1 ? 1 : 0) + passes + mips;
 }
@@ -79,7 +81,7 @@ class variance_technique {
   }
 
   void fill(const image<float>& depth, int y, std::span<T> row) const {
-    warp_row<T>(depth.row(y), layer_, row, 2);
+    warp_row<T>(depth.row(y), layer_, row, 2, how_.warping);
     switch (how_.second) {
       case second_moment::square:
         square_row<T>(row, 2);
@@ -92,32 +94,17 @@ class variance_technique {
         centred_square_row<T>(row, 2);
         break;
     }
-    if (how_.slope_term) add_slope(depth, y, row);
+    if (how_.slope_term) add_layer_slope(depth, y, layer_, how_, row);
   }
 
   T light(std::span<const T> values, const T& t) const {
     const auto at = how_.second == second_moment::centred
                         ? mean_and_centred_variance(values[0], values[1])
                         : mean_and_variance(values[0], values[1]);
-    return chebyshev(at, warp(t, layer_), floor_);
+    return chebyshev(at, warp(t, layer_, how_.warping), floor_);
   }
 
  private:
-  void add_slope(const image<float>& depth, int y, std::span<T> row) const {
-    std::vector<T> rows[3];
-    for (int k = 0; k < 3; ++k) {
-      rows[k].resize(static_cast<std::size_t>(depth.width));
-      warp_row<T>(depth.row(std::clamp(y + k - 1, 0, depth.height - 1)), layer_, rows[k], 1);
-    }
-    // In centred storage, 4 (x - 1/2)^2, a variance counts four times.
-    if (how_.second == second_moment::centred) {
-      for (auto& r : rows) {
-        for (T& x : r) x = x + x;
-      }
-    }
-    add_slope_row<T>(rows[0], rows[1], rows[2], row, 2);
-  }
-
   const configuration& how_;
   const storage_format& storage_;
   T least_floor_;

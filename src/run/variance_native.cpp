@@ -4,7 +4,9 @@
 #include <charconv>
 #include <string>
 
+#include "bitshade/shadow/evsm.hpp"
 #include "bitshade/shadow/layer_packing.hpp"
+#include "io/error.hpp"
 #include "run/engines.hpp"
 #include "run/layered_run.hpp"
 #include "run/native.hpp"
@@ -14,9 +16,15 @@ namespace bitshade {
 
 namespace {
 
+std::string three_digits(double x) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 3).ptr;
+  return {text, end};
+}
+
 /// Says so where the floor is under what the format's noise needs, in the widest layer in use.
 void note_low_floor(run_context& run) {
-  if (run.how.noise_floor) return;
+  if (run.how.noise_floor || run.how.warping == layer_warp::unclamped) return;
   double width = 0;
   for (std::size_t i = 0; i < run.layers.intervals.size(); ++i) {
     const interval& layer = run.layers.intervals[i];
@@ -25,12 +33,37 @@ void note_low_floor(run_context& run) {
   const double noise = variance_noise(run.how, run.storage, run.scene.depth);
   const double needed = floor_for(noise, tolerated_error) * width * width;
   if (!(run.how.min_variance < needed)) return;
-  char text[32];
-  const auto end =
-      std::to_chars(text, text + sizeof text, needed, std::chars_format::general, 3).ptr;
   run.result.notes.push_back("the floor " + detail::shortest(run.how.min_variance) + " is under " +
-                             std::string(text, end) + ", which the noise of " + run.how.format +
+                             three_digits(needed) + ", which the noise of " + run.how.format +
                              " needs to keep lit receivers within 1/255");
+}
+
+/// Refuses what overflows without the clamp, and says so where a format's range takes its place.
+void check_reach(run_context& run) {
+  if (run.how.warping == layer_warp::clamped) return;
+  double low = 1, high = 0;  // of the depths, then of their places in any layer
+  for (const image<float>* map : depth_maps(run.scene, run.look.samples)) {
+    const auto [least, most] = std::minmax_element(map->texels.begin(), map->texels.end());
+    low = std::min(low, clamp_depth(static_cast<double>(*least)));
+    high = std::max(high, clamp_depth(static_cast<double>(*most)));
+  }
+  double from = 0, to = 0;
+  for (const interval& layer : run.layers.intervals) {
+    from = std::min(from, warp(low, layer, layer_warp::unclamped));
+    to = std::max(to, warp(high, layer, layer_warp::unclamped));
+  }
+  const double largest = largest_of(run.storage.format);
+  const std::string reach = "without the clamp depths reach from " + three_digits(from) + " to " +
+                            three_digits(to) + " in their layers";
+  if (run.storage.format.kind == family::binary) {
+    if (std::max(from * from, to * to) <= largest) return;
+    throw usage_error(reach + ", whose square overflows " + run.how.format +
+                      ": take wider layers, a format of wider range, or clamped layers");
+  }
+  if (from < 0 || to * to > largest) {
+    run.result.notes.push_back(reach + "; " + run.how.format +
+                               " saturates, the square apart from the depth");
+  }
 }
 
 /// Moments of all layers from one reading of the depths, two layers in four channels side by side;
@@ -48,7 +81,7 @@ class one_pass_technique {
     for_rows(run.threads, all_.height, [&](int y) {
       if (plain) {
         layers_row<T>(run.scene.depth.row(y), intervals_, all_.row(y),
-                      static_cast<std::size_t>(all_.channels));
+                      static_cast<std::size_t>(all_.channels), run.how.warping);
         return;
       }
       auto technique = alone_;
@@ -110,6 +143,7 @@ void run_in(run_context& run) {
 }  // namespace
 
 void run_variance_native(run_context& run) {
+  check_reach(run);
   note_low_floor(run);
   run.storage.wide ? run_in<double>(run) : run_in<float>(run);
 }

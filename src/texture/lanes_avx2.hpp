@@ -54,6 +54,7 @@ struct lanes : bulk_kernels::avx2::lanes32 {
   static constexpr bool samples = true;
   using wide = bulk_kernels::avx2::lanes64;
   static f floor(f x) { return _mm256_floor_ps(x); }
+  static i floor_to_int(f x) { return to_int(floor(x)); }
   static f nearest(f x) { return _mm256_round_ps(x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
   static __m256d floor(__m256d x) { return _mm256_floor_pd(x); }
   static __m256d nearest(__m256d x) {

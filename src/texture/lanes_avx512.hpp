@@ -78,6 +78,11 @@ struct lanes : bulk_kernels::avx512::lanes32 {
   static constexpr bool samples = true;
   using wide = bulk_kernels::avx512::lanes64;
   static f floor(f x) { return _mm512_floor_ps(x); }
+  static i floor_to_int(f x) {
+    return _mm512_cvt_roundps_epi32(x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+  }
+  static m or_(m a, m b) { return _kor_mask16(a, b); }
+  static i or_(i a, i b) { return lanes32::or_(a, b); }
   static f nearest(f x) {
     return _mm512_roundscale_ps(x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
   }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <thread>
 
 #include "bitshade/texture/mip.hpp"
 #include "bulk/float_environment.hpp"
@@ -28,6 +29,41 @@ void require_level(const image<Texel>& in, row_range rows, const image<Texel>& o
       out.channels != in.channels)
     throw std::invalid_argument("bitshade::bulk: not the size of the next level");
   require_rows(rows, out.height);
+}
+
+/// Calls level(l, rows) for every level over the first: first for blocks of rows that halve evenly
+/// through several levels, each block by one thread, then for what is left.
+template <class Texel, class Level>
+void fill_levels(std::span<image<Texel>> levels, const execution& how, Level level) {
+  if (levels.empty()) return;
+  constexpr int most = 64;  // rows of a block: a few hundred kilobytes stay in the second level
+  const int height = levels.front().height;
+  int block = 1;
+  std::size_t deep = 1;
+  while (deep < levels.size() && block < most && height % (2 * block) == 0) {
+    block *= 2;
+    ++deep;
+  }
+  const auto make = [&](int first, int last) {
+    for (int b = first; b < last; ++b) {
+      int rows = block;
+      for (std::size_t l = 1; l < deep; ++l) {
+        rows /= 2;
+        level(l, row_range{b * rows, (b + 1) * rows});
+      }
+    }
+  };
+  const int blocks = height / block;
+  const int crew = std::min<int>(static_cast<int>(std::max(1U, how.threads)), blocks);
+  const auto start = [&](int k) {
+    return static_cast<int>(static_cast<long long>(blocks) * k / crew);
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < crew; ++k) others.emplace_back(make, start(k), start(k + 1));
+    make(start(0), start(1));
+  }
+  for (std::size_t l = deep; l < levels.size(); ++l) level(l, row_range{0, levels[l].height});
 }
 
 }  // namespace
@@ -62,6 +98,21 @@ void downsample(const texel_code& code, const image<std::uint16_t>& in, mip_filt
     downsample_row<float>(all, filter, y, row.row(0));
     encode(code.format, code.rule, row.row(0), out.row(y), how);
   }
+}
+
+void fill_mips(std::span<image<float>> levels, mip_filter filter, const execution& how) {
+  for (std::size_t l = 1; l < levels.size(); ++l) require_level(levels[l - 1], {}, levels[l]);
+  fill_levels(levels, how, [&](std::size_t l, row_range rows) {
+    downsample(levels[l - 1], filter, rows, levels[l], how.set);
+  });
+}
+
+void fill_mips(const texel_code& code, std::span<image<std::uint16_t>> levels, mip_filter filter,
+               const execution& how) {
+  for (std::size_t l = 1; l < levels.size(); ++l) require_level(levels[l - 1], {}, levels[l]);
+  fill_levels(levels, how, [&](std::size_t l, row_range rows) {
+    downsample(code, levels[l - 1], filter, rows, levels[l], how.set);
+  });
 }
 
 }  // namespace bitshade::bulk

@@ -5,32 +5,47 @@
 
 namespace bitshade::texture_kernels {
 
+/// What all samples of a job have in common, in registers: the compiler cannot know that storing
+/// results leaves the job as it is.
+template <class V>
+struct level_size {
+  typename V::f width, height;
+  typename V::i last_column, last_line;  ///< of the first of two texels
+  typename V::i stride;
+  bool has_inner;
+
+  explicit level_size(const sample_job& job)
+      : width(V::all(static_cast<float>(job.width))),
+        height(V::all(static_cast<float>(job.height))),
+        last_column(V::all_bits(static_cast<std::uint32_t>(job.width - 2))),
+        last_line(V::all_bits(static_cast<std::uint32_t>(job.height - 2))),
+        stride(V::all_bits(static_cast<std::uint32_t>(job.width))),
+        has_inner(job.width > 1 && job.height > 1) {}
+};
+
 /// Coordinates of a vector of samples in binary32.
 template <class V, int Channels, grid Grid>
-[[gnu::always_inline]] inline void locate(const sample_job& job, const float* u, const float* v,
+[[gnu::always_inline]] inline void locate(const level_size<V>& size, const float* u, const float* v,
                                           located<V>& at) {
   using f = typename V::f;
   const f half = V::all(0.5f), zero = V::all(0.0f);
-  const auto axis = [&](const float* p, int size, f& weight) __attribute__((always_inline)) {
-    f x = V::sub(V::mul(V::load(p), V::all(static_cast<float>(size))), half);
+  const auto axis = [&](const float* p, f length, f& weight) __attribute__((always_inline)) {
+    f x = V::sub(V::mul(V::load(p), length), half);
     // + 0 turns a zero that was rounded up to from below into +0, as an integer's is.
     if constexpr (Grid == grid::floor || Grid == grid::nearest) {
       const f scaled = V::mul(x, V::all(256.0f));
       const f whole = Grid == grid::floor ? V::floor(scaled) : V::nearest(scaled);
       x = V::mul(V::add(whole, zero), V::all(1 / 256.0f));
     }
-    const f first = V::floor(x);
-    weight = V::sub(x, V::add(first, zero));
+    const auto first = V::floor_to_int(x);
+    weight = V::sub(x, V::to_float(first));
     return first;
   };
-  const f x = axis(u, job.width, at.fx), y = axis(v, job.height, at.fy);
+  const auto column = axis(u, size.width, at.fx), line = axis(v, size.height, at.fy);
   // As unsigned integers, so that what lies before the first texel, and NaN, is beyond the last.
-  const auto column = V::to_int(x), line = V::to_int(y);
-  const auto last = [](int size) { return V::all_bits(static_cast<std::uint32_t>(size - 2)); };
-  at.inner = job.width > 1 && job.height > 1 && !V::any(V::ugt(column, last(job.width))) &&
-             !V::any(V::ugt(line, last(job.height)));
-  const auto row = V::imul(line, V::all_bits(static_cast<std::uint32_t>(job.width)));
-  const auto texel = V::iadd(row, column);
+  at.inner = size.has_inner && !V::any(V::or_(V::ugt(column, size.last_column),
+                                              V::ugt(line, size.last_line)));
+  const auto texel = V::iadd(V::imul(line, size.stride), column);
   V::store_ints(at.place, Channels == 2 ? V::iadd(texel, texel) : texel);
 }
 
@@ -50,33 +65,38 @@ class sample_rows {
  public:
   explicit sample_rows(const sample_job& job) : job_(job) {}
 
-  void run() {
+  void run() const {
+    const level_size<V> size(job_);
+    const Texels texels;
+    const sample_job job = job_;
     std::size_t i = 0;
-    for (; i + V::width <= job_.n; i += V::width) {
-      vector(job_.u + i, job_.v + i, job_.out + i * Channels);
+    for (; i + V::width <= job.n; i += V::width) {
+      vector(size, texels, job, job.u + i, job.v + i, job.out + i * Channels);
     }
-    if (i == job_.n) return;
+    if (i == job.n) return;
     // The last samples, the others of the vector in the middle of the image.
     float u[V::width], v[V::width], out[V::width * Channels];
     for (std::size_t k = 0; k < V::width; ++k) {
-      u[k] = i + k < job_.n ? job_.u[i + k] : 0.5f;
-      v[k] = i + k < job_.n ? job_.v[i + k] : 0.5f;
+      u[k] = i + k < job.n ? job.u[i + k] : 0.5f;
+      v[k] = i + k < job.n ? job.v[i + k] : 0.5f;
     }
-    vector(u, v, out);
-    for (std::size_t k = i * Channels; k < job_.n * Channels; ++k) {
-      job_.out[k] = out[k - i * Channels];
+    vector(size, texels, job, u, v, out);
+    for (std::size_t k = i * Channels; k < job.n * Channels; ++k) {
+      job.out[k] = out[k - i * Channels];
     }
   }
 
  private:
   using f = typename V::f;
 
-  [[gnu::always_inline]] void vector(const float* u, const float* v, float* out) const {
+  [[gnu::always_inline]] void vector(const level_size<V>& size, const Texels& texels,
+                                     const sample_job& job, const float* u, const float* v,
+                                     float* out) const {
     located<V> at;
-    locate<V, Channels, Grid>(job_, u, v, at);
+    locate<V, Channels, Grid>(size, u, v, at);
     if (!at.inner) return edges(u, v, out);
     const auto part = [&]<int Part>() __attribute__((always_inline)) {
-      put<Part>(fetch<V, Texels, Channels, Part>(texels_, job_, at.place), at.fx, at.fy, out);
+      put<Part>(fetch<V, Texels, Channels, Part>(texels, job, at.place), at.fx, at.fy, out);
     };
     part.template operator()<0>();
     if constexpr (Channels == 2) part.template operator()<1>();
@@ -94,7 +114,7 @@ class sample_rows {
   [[gnu::noinline]] void edges(const float* u, const float* v, float* out) const {
     double wx[V::width], wy[V::width];
     four<V> parts[Channels];
-    fetch_edges<V, Texels, Channels>(texels_, job_, u, v, wx, wy, parts);
+    fetch_edges<V, Texels, Channels>(Texels(), job_, u, v, wx, wy, parts);
     float fx[V::width], fy[V::width];
     for (std::size_t k = 0; k < V::width; ++k) {
       fx[k] = static_cast<float>(wx[k]);
@@ -105,7 +125,6 @@ class sample_rows {
   }
 
   const sample_job& job_;
-  const Texels texels_{};
 };
 
 }  // namespace bitshade::texture_kernels

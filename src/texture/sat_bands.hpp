@@ -70,7 +70,7 @@ class sat_band {
     std::size_t i = 0;
     if (rows_ == width) {
       const auto load = [&](int r) {
-        __builtin_prefetch(in_ + row(r) + i + ahead);
+        prefetch(r, i);
         return sums_.load(in_ + row(r) + i);
       };
       const std::size_t head = to_line();
@@ -97,6 +97,15 @@ class sat_band {
         carry[r * Channels + c] = __builtin_bit_cast(std::uint32_t, at[r]);
       }
     }
+  }
+
+  /// What comes `ahead` values later: in the row, or where the band below begins. An address beyond
+  /// the image is never read.
+  [[gnu::always_inline]] void prefetch(int r, std::size_t i) const {
+    const bool within = i + ahead < job_.n;
+    const std::size_t at = within ? row(r) + i + ahead : row(r + width) + (i + ahead - job_.n);
+    __builtin_prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(in_) +
+                                                     at * sizeof(code)));
   }
 
   std::size_t row(int r) const { return static_cast<std::size_t>(r) * job_.row_size; }

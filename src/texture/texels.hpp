@@ -38,13 +38,15 @@ struct half_texels {
 
 /// unorm16, rounded once each way.
 ///
-/// fma(x, 65535, 2^23) has the code in its low bits, rounded at the exact product's unit; the
-/// quotient by 65535 is put right by its exact remainder [Markstein90]: tests try every code.
+/// fma(x, 65535, 2^23) has the code in its low bits, rounded at the exact product's unit. c / 65535
+/// is c * high + c * low with high + low = 1 / 65535 to 2^-49 of it, while the quotient of a code
+/// keeps 2^-41 of itself away from the middle between two numbers: tests try every code.
 template <class V>
 struct unorm16_texels {
   using f = typename V::f;
   using code = std::uint16_t;
-  f scale = V::all(65535.0f), magic = V::all(0x1p23f), step = V::all(1 / 65535.0f);
+  static constexpr float high = 1 / 65535.0f, low = static_cast<float>(1 / 65535.0 - double{high});
+  f scale = V::all(65535.0f), magic = V::all(0x1p23f);
 
   [[gnu::always_inline]] f load(const code* p) const { return wide(V::load_codes(p)); }
   [[gnu::always_inline]] f narrow(typename V::half_codes c) const { return wide(V::widen(c)); }
@@ -62,8 +64,7 @@ struct unorm16_texels {
     return V::fma(V::min(V::max(x, V::all(0.0f)), V::all(1.0f)), scale, magic);
   }
   [[gnu::always_inline]] f value(f c) const {
-    const f q = V::mul(c, step);
-    return V::fma(V::fnma(q, scale, c), step, q);
+    return V::fma(c, V::all(high), V::mul(c, V::all(low)));
   }
 };
 

@@ -38,7 +38,7 @@ TEST_CASE("certify prints each certificate narrower than the one before") {
   const auto largest = [&](const char* which) { return found[which]["largest"].get<double>(); };
   CHECK(largest("running") < largest("stored"));
   CHECK(largest("stored") < largest("global"));
-  CHECK(contents(found["files"]["widths"].get<std::string>()).starts_with("\x89PNG"));
+  CHECK(contents(found["files"]["certificate"].get<std::string>()).starts_with("\x89PNG"));
   const auto refused = run_bitshade({"certify", "slope", "--technique", "msm"});
   CHECK(refused.status == 2);
   CHECK(refused.err.find("vsm and lvsm") != std::string::npos);

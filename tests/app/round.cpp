@@ -84,6 +84,13 @@ TEST_CASE("stochastic rounding replays from its seed") {
   CHECK(a.out != round_text(input, "--format fp8_e5m2 --rounding stochastic --seed 8").out);
 }
 
+TEST_CASE("round answers a line of a million digits") {
+  const std::string third = "0." + std::string(1'000'000, '3') + '\n';
+  CHECK(round_text(third + third, "--format half").out == "0x1.554p-2 0x3555\n0x1.554p-2 0x3555\n");
+  CHECK(round_text("0x" + std::string(1'000'000, '5') + "p-4000000\n", "--format unorm16").out ==
+        "0x1.5555555555555p-2 0x5555\n");
+}
+
 TEST_CASE("round names the line that it cannot read") {
   for (const char* bad :
        {"abc", "", "1/0", "0x", "1e", "1..2", "--1", "1 2", "inf/2", "0x1p", "nan(1)"}) {
@@ -93,6 +100,10 @@ TEST_CASE("round names the line that it cannot read") {
     CHECK(r.out.find("line 2:") != std::string::npos);
     CHECK(r.out.find("0x1p+0 0x3c00\n") != std::string::npos);
   }
+  const outcome json = round_text("1\nx\n", "--format half --json");
+  CHECK(json.status == 1);
+  CHECK(json.out.find("[\n {\"line\": 1, \"value\": \"0x1p+0\", \"bits\": \"0x3c00\"}\n]\n") != std::string::npos);
+  CHECK(round_text("1\n", "--format e5m10x").out.find("did you mean 'e5m10'?") != std::string::npos);
   CHECK(round_text("1\n", "--format bfoat16").status == 2);
   CHECK(round_text("1\n", "--format bfoat16").out.find("bfloat16") != std::string::npos);
   CHECK(round_text("1\n", "--format e12m3").out.find("2 <= X <= 11") != std::string::npos);

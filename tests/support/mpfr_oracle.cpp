@@ -8,7 +8,7 @@ namespace {
 using bitshade::encoding;
 using bitshade::family;
 
-bool is_norm(const encoding& e) { return e.kind == family::unorm || e.kind == family::snorm; }
+bool normalised(const encoding& e) { return e.kind == family::unorm || e.kind == family::snorm; }
 std::uint64_t ones(int n) { return n >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << n) - 1; }
 long least_exponent(const encoding& e) { return 2 - (1L << (e.exponent_bits - 1)); }
 
@@ -30,7 +30,7 @@ void rounder::set_steps(mpfr_srcptr x) {
 void rounder::set(mpfr_srcptr x) {
   set_steps(x);
   if (nan_ || infinite_) return;
-  if (is_norm(e_)) {
+  if (normalised(e_)) {
     mpfr_mul_ui(steps_, steps_, ones(e_.kind == family::snorm ? e_.width - 1 : e_.width), MPFR_RNDN);
   } else if (e_.kind != family::binary) {
     mpfr_mul_2si(steps_, steps_, e_.fraction_bits, MPFR_RNDN);
@@ -125,7 +125,7 @@ void value(mpfr_ptr x, const encoding& e, std::uint64_t bits) {
   if (e.kind != family::binary) {
     std::int64_t code = static_cast<std::int64_t>(bits);
     if (negative) code = static_cast<std::int64_t>(bits | ~ones(e.width));
-    if (is_norm(e)) {
+    if (normalised(e)) {
       const long most = static_cast<long>(ones(e.kind == family::snorm ? e.width - 1 : e.width));
       if (code < -most) code = -most;
       mpfr_set_si(x, code, MPFR_RNDN);

@@ -11,11 +11,11 @@ using bitshade::family;
 
 namespace {
 
-bool is_norm(const encoding& e) { return e.kind == family::unorm || e.kind == family::snorm; }
+bool normalised(const encoding& e) { return e.kind == family::unorm || e.kind == family::snorm; }
 
 /// A norm's code as an integer; the value otherwise. `one` is what stands for 1.
 void load(mpfr_ptr x, const encoding& e, std::uint64_t bits) {
-  if (!is_norm(e)) return value(x, e, bits);
+  if (!normalised(e)) return value(x, e, bits);
   const encoding whole = e.kind == family::snorm ? bitshade::fixed_encoding(e.width, 0) : bitshade::ufixed_encoding(e.width, 0);
   value(x, whole, bits);
   if (e.kind == family::snorm && mpfr_cmp_si(x, -static_cast<long>(bitshade::max_bits(e))) < 0)
@@ -29,7 +29,7 @@ void calculator::compute(operation op, std::uint64_t a, std::uint64_t b, std::ui
   load(b_, e_, b);
   load(c_, e_, c);
   zero_of_unlike_signs_ = false;
-  if (is_norm(e_)) return compute_steps(op);
+  if (normalised(e_)) return compute_steps(op);
   mpfr_set_prec(exact_, 320);
   mpfr_ptr result = wide_;
   switch (op) {

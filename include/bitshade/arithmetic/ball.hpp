@@ -75,7 +75,7 @@ class ball {
   }
   ball(float x) : ball(static_cast<double>(x)) {}
   template <std::integral I>
-  ball(I x) : ball(static_cast<double>(x)) {}  // |x| < 2^53
+  ball(I x) : ball(normalised(x < 0, wide<2>(x < 0 ? ~static_cast<uint128>(x) + 1 : static_cast<uint128>(x)), 0, 0)) {}
 
   /// +-mantissa 2^exponent, to within `radius`.
   template <std::size_t From>

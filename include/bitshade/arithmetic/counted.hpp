@@ -1,41 +1,26 @@
 // Any number type, counting what its operations do. A policy that does not name it does not contain it.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
+#include <limits>
 
-#include "bitshade/arithmetic/real.hpp"
+#include "bitshade/arithmetic/counting.hpp"
+#include "bitshade/arithmetic/real_limits.hpp"
 
 namespace bitshade {
 
-/// What the operations of one stage did.
-struct operation_counts {
-  std::uint64_t operations = 0;
-  std::uint64_t roundings = 0;      ///< inexact results
-  std::uint64_t cancellations = 0;  ///< sums that lost at least half of their leading bits
-  std::uint64_t overflows = 0;      ///< finite operands, a result beyond the largest number
-  std::uint64_t subnormals = 0;     ///< results below the smallest normal number, zero excepted
-
-  friend bool operator==(const operation_counts&, const operation_counts&) = default;
-};
-
-/// One row a stage; stages are numbered by whoever counts.
-template <std::size_t Stages>
-using tally = std::array<operation_counts, Stages>;
-
-/// A T that reports to the counts it was given; results inherit the pointer of either operand, so that there is no
-/// global state. Constants have none and cost nothing until they meet a number that has.
+/// A T that reports to the counts it was given; results inherit the pointer of the first operand that has one, so that
+/// there is no global state. Constants have none and cost nothing until they meet a number that has.
 ///
-/// Shapes   T: float, double or real<F>.
+/// Shapes   T: float, double or real<F>. <cmath> for it is counted_math.hpp.
 template <class T>
 class counted {
-  static constexpr encoding E = [] {
-    if constexpr (real_number<T>) return T::encoding_value;
-    else return detail::shape_of<T>::value;
-  }();
+  using traits = detail::arithmetic_of<T>;
+  static constexpr encoding E = traits::format;
+  static constexpr encoding wide = detail::with_room(E);
 
  public:
+  using value_type = T;
+
   counted() = default;
   template <class U>
     requires std::constructible_from<T, U>
@@ -52,21 +37,49 @@ class counted {
     return static_cast<U>(value_);
   }
 
+  /// A result of operands that report somewhere, and the operation as a function from rules to the result's bits.
+  template <class Operation, class... Operands>
+  static constexpr counted record(const T& result, Operation operation, const Operands&... x) {
+    operation_counts* where = nullptr;
+    ((where = where != nullptr ? where : x.where_), ...);
+    const auto finite = [](double d) { return d - d == 0; };
+    if (where != nullptr)
+      detail::count_operation<E, traits::policy>(*where, (finite(static_cast<double>(x.value_)) && ...), operation);
+    return {result, where};
+  }
+
   friend constexpr counted operator+(const counted& a, const counted& b) {
-    return sum(a, b, a.value_ + b.value_, [](auto x, auto y, const rules& r) { return add(E, x, y, r); });
+    return sum(exactly(a), exactly(b),
+               record(a.value_ + b.value_, [&](const rules& r) { return add(wide, bits(a), bits(b), r); }, a, b));
   }
   friend constexpr counted operator-(const counted& a, const counted& b) {
-    return sum(a, b, a.value_ - b.value_, [](auto x, auto y, const rules& r) { return subtract(E, x, y, r); });
+    exact_result minus_b = exactly(b);
+    minus_b.negative = !minus_b.negative;
+    return sum(exactly(a), minus_b,
+               record(a.value_ - b.value_, [&](const rules& r) { return subtract(wide, bits(a), bits(b), r); }, a, b));
   }
   friend constexpr counted operator*(const counted& a, const counted& b) {
-    return record(a.value_ * b.value_, [](auto x, auto y, const rules& r) { return multiply(E, x, y, r); }, a, b);
+    return record(a.value_ * b.value_, [&](const rules& r) { return multiply(wide, bits(a), bits(b), r); }, a, b);
   }
   friend constexpr counted operator/(const counted& a, const counted& b) {
-    return record(a.value_ / b.value_, [](auto x, auto y, const rules& r) { return divide(E, x, y, r); }, a, b);
+    return record(a.value_ / b.value_, [&](const rules& r) { return divide(wide, bits(a), bits(b), r); }, a, b);
   }
   friend constexpr counted sqrt(const counted& a) {
     using std::sqrt;
-    return record(T(sqrt(a.value_)), [](auto x, const rules& r) { return square_root(E, x, r); }, a);
+    return record(T(sqrt(a.value_)), [&](const rules& r) { return square_root(wide, bits(a), r); }, a);
+  }
+  /// One operation, rounded once, that may cancel.
+  friend constexpr counted fma(const counted& a, const counted& b, const counted& c) {
+    using emulated = typename traits::emulated;
+    const auto result = static_cast<T>(fma(emulated(a.value_), emulated(b.value_), emulated(c.value_)));
+    exact_result product = exactly(a);
+    const exact_result factor = exactly(b);
+    product.negative = product.negative != factor.negative;
+    product.n *= factor.n;
+    product.exponent += factor.exponent;
+    if (!factor.is_finite()) product.what = factor.what;
+    const auto operation = [&](const rules& r) { return fused_multiply_add(wide, bits(a), bits(b), bits(c), r); };
+    return sum(product, exactly(c), record(result, operation, a, b, c));
   }
   friend constexpr counted operator-(const counted& a) { return {-a.value_, a.where_}; }
   friend constexpr counted operator+(const counted& a) { return a; }
@@ -83,42 +96,13 @@ class counted {
   friend constexpr bool operator>=(const counted& a, const counted& b) { return a.value_ >= b.value_; }
 
  private:
-  static constexpr std::uint64_t bits(const counted& x) { return encode(E, static_cast<double>(x.value_)); }
-
-  /// An operation is exact where rounding it down and up is the same.
-  template <class Operation, class... Operands>
-  static constexpr counted record(const T& result, Operation operation, const Operands&... x) {
-    operation_counts* where = nullptr;
-    ((where = where != nullptr ? where : x.where_), ...);
-    if (where != nullptr) {
-      where->operations += 1;
-      const std::uint64_t low = operation(bits(x)..., rules{rounding::down});
-      const std::uint64_t high = operation(bits(x)..., rules{rounding::up});
-      const auto number = [](double d) { return d - d == 0; };
-      const bool finite = (number(static_cast<double>(x.value_)) && ...);
-      const double r = static_cast<double>(result);
-      // A sum that is exactly 0 differs in its sign alone.
-      if (decode(E, low) < decode(E, high)) where->roundings += 1;
-      if (finite && r == r && decode(E, high) - decode(E, low) > 0 &&
-          (!number(decode(E, high)) || !number(decode(E, low))))
-        where->overflows += 1;
-      const double size = r < 0 ? -r : r;
-      if (E.kind == family::binary && size > 0 && size < decode(E, min_normal_bits(E))) where->subnormals += 1;
-    }
-    return {result, where};
+  static constexpr std::uint64_t bits(const counted& x) {
+    return detail::roomy_bits<E>(static_cast<double>(x.value_));
   }
-  template <class Operation>
-  static constexpr counted sum(const counted& a, const counted& b, const T& result, Operation operation) {
-    const counted r = record(result, operation, a, b);
-    if (r.where_ != nullptr) {
-      const exact_result x = unpack(static_cast<double>(a.value_)), y = unpack(static_cast<double>(b.value_)),
-                         z = unpack(static_cast<double>(result));
-      const auto lead = [](const exact_result& u) { return u.exponent + bit_width(u.n); };
-      if (x.is_finite() && y.is_finite() && z.is_finite() && x.n != 0 && y.n != 0) {
-        const auto most = lead(x) > lead(y) ? lead(x) : lead(y);
-        if (z.n == 0 || most - lead(z) >= (precision(E) + 1) / 2) r.where_->cancellations += 1;
-      }
-    }
+  static constexpr exact_result exactly(const counted& x) { return unpack(static_cast<double>(x.value_)); }
+  /// r, which is the sum of two exact terms.
+  static constexpr counted sum(const exact_result& a, const exact_result& b, const counted& r) {
+    if (r.where_ != nullptr && detail::cancels(E, a, b)) r.where_->cancellations += 1;
     return r;
   }
 
@@ -127,3 +111,22 @@ class counted {
 };
 
 }  // namespace bitshade
+
+/// T's limits, as numbers that count nothing.
+template <class T>
+struct std::numeric_limits<bitshade::counted<T>> : std::numeric_limits<T> {
+ private:
+  using limits = std::numeric_limits<T>;
+  using number = bitshade::counted<T>;
+
+ public:
+  static constexpr number min() noexcept { return limits::min(); }
+  static constexpr number max() noexcept { return limits::max(); }
+  static constexpr number lowest() noexcept { return limits::lowest(); }
+  static constexpr number epsilon() noexcept { return limits::epsilon(); }
+  static constexpr number round_error() noexcept { return limits::round_error(); }
+  static constexpr number infinity() noexcept { return limits::infinity(); }
+  static constexpr number quiet_NaN() noexcept { return limits::quiet_NaN(); }
+  static constexpr number signaling_NaN() noexcept { return limits::signaling_NaN(); }
+  static constexpr number denorm_min() noexcept { return limits::denorm_min(); }
+};

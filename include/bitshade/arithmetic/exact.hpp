@@ -4,6 +4,7 @@
 #include <bit>
 #include <concepts>
 #include <cstdint>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -14,7 +15,7 @@ namespace bitshade {
 /// A rational number: + - x / and comparisons are exact, conversions in are exact, conversions out are explicit.
 ///
 /// Q needs construction from an integer, + - x / and comparisons, all exact. Boost's is interop/rational.hpp.
-/// Failure  an infinite or NaN double becomes 0: check before; division by zero is Q's.
+/// Failure  std::domain_error for an infinite or NaN number, which no rational is; division by zero is Q's.
 template <class Q>
 class exact {
  public:
@@ -57,7 +58,7 @@ class exact {
   static Q from_double(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const int field = static_cast<int>((bits >> 52) & 0x7ff);
-    if (field == 0x7ff) return Q(0);
+    if (field == 0x7ff) throw std::domain_error("bitshade: exact takes finite numbers, not an infinity or a NaN");
     std::int64_t m = static_cast<std::int64_t>(bits & ((std::uint64_t{1} << 52) - 1));
     if (field != 0) m |= std::int64_t{1} << 52;
     if (m == 0) return Q(0);

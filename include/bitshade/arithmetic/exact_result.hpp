@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <type_traits>
 
 #include "bitshade/formats/decode.hpp"
 
@@ -35,6 +36,43 @@ constexpr exact_result unpack(double x) {
   if (field == 0x7ff) return fraction != 0 ? exact_result::nan() : exact_result::infinity(negative);
   const std::uint64_t n = field == 0 ? fraction : fraction | (std::uint64_t{1} << 52);
   return {exact_result::kind::finite, negative, n, (field == 0 ? 1 : field) - 1075, false};
+}
+
+/// A longer floating-point number as it is: x87's, or binary128 where the compiler has it. Every step is exact in T,
+/// whatever direction it rounds in.
+template <class T>
+constexpr exact_result unpack_longer(T x) {
+  if (x != x) return exact_result::nan();
+  if (x == 0) return unpack(static_cast<double>(x));
+  const bool negative = x < 0;
+  if (negative) x = -x;
+  if (x - x != 0) return exact_result::infinity(negative);
+  T power[14] = {2};  // 2^(2^i)
+  for (int i = 1; i < 14; ++i) power[i] = power[i - 1] * power[i - 1];
+  std::int64_t exponent = 0;
+  for (int i = 13; i >= 0; --i) {
+    if (x >= power[i]) x /= power[i], exponent += std::int64_t{1} << i;
+    else if (x < 1 && x * power[i] < 2) x *= power[i], exponent -= std::int64_t{1} << i;
+  }
+  for (; x < 1; x *= 2) --exponent;  // the last subnormal numbers
+  x *= static_cast<T>(std::uint64_t{1} << 63);
+  const auto high = static_cast<std::uint64_t>(x);
+  x = (x - static_cast<T>(high)) * static_cast<T>(std::uint64_t{1} << 32) * static_cast<T>(std::uint64_t{1} << 32);
+  return {exact_result::kind::finite, negative, uint128{high} << 64 | static_cast<std::uint64_t>(x), exponent - 127, false};
+}
+
+/// Any number of the language's as it is.
+template <class T>
+  requires std::is_arithmetic_v<T>
+constexpr exact_result unpack_any(T x) {
+  if constexpr (std::is_integral_v<T>) {
+    const auto n = static_cast<uint128>(x);
+    return {exact_result::kind::finite, x < 0, x < 0 ? ~n + 1 : n, 0, false};
+  } else if constexpr (sizeof(T) <= sizeof(double)) {
+    return unpack(static_cast<double>(x));
+  } else {
+    return unpack_longer(x);
+  }
 }
 
 /// Its bits in a binary or fixed-point format; NaN is the canonical one.

@@ -20,7 +20,7 @@ constexpr truth operator|(truth a, truth b) { return a < b ? b : a; }
 /// [lower, upper]: every operation encloses its exact results on all numbers of its operands.
 ///
 /// Shapes   T: float, double, real<F> with infinities, or exact<Q>.
-/// Error    each bound is the nearest T on its side; none for exact<Q>.
+/// Error    each bound is the nearest T on its side, of a number that T does not hold too; none for exact<Q>.
 /// Failure  dividing by an interval that holds 0 gives everything; sqrt of a part below 0 leaves that part out.
 ///          NaN bounds are not meant.
 template <class T>
@@ -32,7 +32,7 @@ class interval {
   constexpr interval(const T& x) : lower_(x), upper_(x) {}
   template <class U>
     requires(std::is_arithmetic_v<U> && !std::same_as<U, T> && std::constructible_from<T, U>)
-  constexpr interval(U x) : interval(T(x)) {}
+  constexpr interval(U x) : interval(enclosing(x)) {}
   constexpr interval(const T& lower, const T& upper) : lower_(lower), upper_(upper) {}
 
   constexpr const T& lower() const { return lower_; }
@@ -117,6 +117,15 @@ class interval {
   }
 
  private:
+  template <class U>
+  static constexpr interval enclosing(U x) {
+    if constexpr (requires { bounds::round(exact_result{}); }) {
+      const auto both = bounds::round(unpack_any(x));
+      return {both.first, both.second};
+    } else {
+      return interval(T(x));
+    }
+  }
   static constexpr interval product(const T& a, const T& b) {
     const auto p = bounds::multiply(a, b);
     return {p.first, p.second};

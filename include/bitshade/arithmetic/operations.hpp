@@ -31,8 +31,8 @@ constexpr exact_result operand(const encoding& e, std::uint64_t bits, const rule
 }
 
 /// Steps to one: a norm's 2^N - 1, or 2^F.
-constexpr uint128 steps_to_one(const encoding& e) {
-  return e.kind == family::unorm || e.kind == family::snorm ? uint128{max_bits(e)} : uint128{1} << e.fraction_bits;
+constexpr uint128 one_in_steps(const encoding& e) {
+  return is_norm(e) ? uint128{steps_to_one(e)} : uint128{1} << e.fraction_bits;
 }
 
 /// |n| / d steps, rounded; d is at most 2^64.
@@ -47,7 +47,7 @@ constexpr std::uint64_t round_steps(const encoding& e, bool negative, uint128 n,
   return assemble(e, negative, 0, q, r, random);
 }
 
-
+/// The end of a norm or fixed-point format, which everything beyond goes to.
 constexpr std::uint64_t clamp_end(const encoding& e, bool negative, const rules& r) {
   return assemble(e, negative, 0, {~std::uint64_t{0}, 0, true}, r, 0);
 }
@@ -106,7 +106,7 @@ constexpr std::uint64_t multiply(const encoding& e, std::uint64_t a, std::uint64
   }
   x.n *= y.n;
   x.exponent += y.exponent;
-  if (detail::counts_steps(e)) return detail::round_steps(e, x.negative, x.n, detail::steps_to_one(e), r, random);
+  if (detail::counts_steps(e)) return detail::round_steps(e, x.negative, x.n, detail::one_in_steps(e), r, random);
   return round_result(e, x, r, random);
 }
 
@@ -125,7 +125,7 @@ constexpr std::uint64_t divide(const encoding& e, std::uint64_t a, std::uint64_t
   }
   if (!y.is_finite() || x.is_zero()) return round_result(e, exact_result::zero(negative), r, random);
   if (detail::counts_steps(e))
-    return detail::round_steps(e, negative, x.n * detail::steps_to_one(e), y.n, r, random);
+    return detail::round_steps(e, negative, x.n * detail::one_in_steps(e), y.n, r, random);
   return round_result(e, quotient_of(x, y), r, random);
 }
 
@@ -137,7 +137,7 @@ constexpr std::uint64_t square_root(const encoding& e, std::uint64_t a, const ru
   if (x.what == exact_result::kind::nan || x.negative) return nan_bits(e);
   if (!x.is_finite()) return round_result(e, x, r, random);
   if (!detail::counts_steps(e)) return round_result(e, root_of(x), r, random);
-  x.n *= detail::steps_to_one(e);
+  x.n *= detail::one_in_steps(e);
   const exact_result root = root_of(x);
   return assemble(e, false, 0, scaled(root.n, root.exponent, root.sticky), r, random);
 }
@@ -159,13 +159,34 @@ constexpr std::uint64_t fused_multiply_add(const encoding& e, std::uint64_t a, s
   x.n *= y.n;
   x.exponent += y.exponent;
   if (!detail::counts_steps(e)) return round_result(e, sum_of(x, z, r.direction), r, random);
-  const uint128 one = detail::steps_to_one(e), shifted = z.n * one;
+  const uint128 one = detail::one_in_steps(e), shifted = z.n * one;
   if (x.negative != z.negative) {
     const bool less = x.n < shifted;
     return detail::round_steps(e, less ? z.negative : x.negative, less ? shifted - x.n : x.n - shifted, one, r, random);
   }
   if (x.n + shifted < shifted) return detail::clamp_end(e, x.negative, r);  // beyond 2^128 / 2^64 steps
   return detail::round_steps(e, x.negative, x.n + shifted, one, r, random);
+}
+
+/// A number of one format in another, rounded once: also where a norm's value is no number of any binary format.
+constexpr std::uint64_t convert(const encoding& to, const encoding& from, std::uint64_t bits, const rules& r = {},
+                                std::uint64_t random = 0) {
+  exact_result x = detail::operand(from, bits, r);
+  if (!is_norm(from)) {
+    if (from.kind != family::binary) x.exponent = -from.fraction_bits;
+    return round_result(to, x, r, random);
+  }
+  if (!detail::counts_steps(to)) return norm_to(to, x.negative, static_cast<std::uint64_t>(x.n), from.fraction_bits, r, random);
+  return detail::round_steps(to, x.negative, x.n * detail::one_in_steps(to), steps_to_one(from), r, random);
+}
+
+/// The bits of an exact result; of a norm's, which counts its steps.
+constexpr std::uint64_t round_on_grid(const encoding& e, const exact_result& x, const rules& r = {},
+                                      std::uint64_t random = 0) {
+  if (!is_norm(e)) return round_result(e, x, r, random);
+  if (x.what == exact_result::kind::nan) return nan_bits(e);
+  if (!x.is_finite()) return detail::clamp_end(e, x.negative, r);
+  return assemble(e, x.negative, 0, scaled(x.n, x.exponent, x.sticky), r, random);
 }
 
 }  // namespace bitshade

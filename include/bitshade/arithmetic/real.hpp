@@ -61,7 +61,8 @@ class real {
 
   real() = default;
 
-  /// Rounds once; implicit, since every operation rounds as well.
+  /// Rounds once; implicit, since every operation rounds as well. Whatever the compiler calls an integer or a floating
+  /// point type: 128-bit ones too, where it takes its extensions for standard (-std=gnu++20).
   template <std::floating_point T>
   constexpr real(T x) : value_(traits::broadcast(from_floating(x))) {}
   template <std::integral T>
@@ -70,7 +71,7 @@ class real {
   template <class F, rules S, class C>
     requires(!std::is_same_v<real<F, S, C>, real> && carrier_traits<C>::lanes == 1)
   explicit(!contains(Format::value, F::value)) constexpr real(real<F, S, C> x)
-      : value_(traits::broadcast(from_floating(static_cast<double>(x.carrier())))) {}
+      : value_(traits::broadcast(from_real(x))) {}
 
   // Always inline: over a pack an operation that is called passes its operands through memory.
 
@@ -84,6 +85,23 @@ class real {
     requires(traits::lanes == 1)
   {
     return make(static_cast<scalar>(decode(E, round_result(E, x, R))));
+  }
+  /// The value that a result on the format's grid rounds to: for norms it counts steps, since values are ratios.
+  static constexpr real from_grid(const exact_result& x)
+    requires(traits::lanes == 1)
+  {
+    return make(static_cast<scalar>(decode(E, round_on_grid(E, x, R))));
+  }
+  /// The operand on that grid: a norm's code, any other number itself.
+  constexpr double on_grid() const
+    requires(traits::lanes == 1)
+  {
+    if constexpr (is_norm(E)) {
+      const auto code = static_cast<std::int64_t>(std::uint64_t{bits()});
+      return static_cast<double>(value_ < 0 ? code - (std::int64_t{1} << E.width) : code);
+    } else {
+      return operand();
+    }
   }
   /// The value as an operand: a zero where R flushes subnormal inputs.
   constexpr double operand() const
@@ -142,6 +160,7 @@ class real {
   friend constexpr real operator-(const real& a) {
     // A sign bit only flips; two's complement and unsigned formats have ends to clamp at.
     if constexpr (E.kind == family::binary && E.has_sign) return make(-a.value_);
+    else if constexpr (E.kind == family::snorm) return make(traits::broadcast(0) - a.value_);  // no direction moves it
     else return from_carrier(-a.value_);
   }
   constexpr real& operator+=(const real& b) { return *this = *this + b; }
@@ -192,6 +211,13 @@ class real {
     return r;
   }
 
+  template <class Other>
+  static constexpr scalar from_real(const Other& x) {
+    constexpr encoding from = Other::encoding_value;
+    // The carrier holds every other number as it is.
+    if constexpr (is_norm(from)) return static_cast<scalar>(decode(E, convert(E, from, x.bits(), R)));
+    else return from_floating(static_cast<double>(x.carrier()));
+  }
   template <class T>
   static constexpr scalar from_floating(T x) {
     if constexpr (traits::lanes == 1 && std::is_same_v<T, scalar>) {
@@ -200,22 +226,14 @@ class real {
       // float to double is exact, so that this rounds once.
       return static_cast<scalar>(carrier_traits<double>::template round<E, R>(static_cast<double>(x)));
     } else {
-      // A longer significand is the sum of two doubles.
-      const double high = static_cast<double>(x);
-      if (!(high - high == 0)) return from_floating(high);
-      const double low = static_cast<double>(x - static_cast<T>(high));
-      const exact_result sum = sum_of(unpack(high), unpack(low), R.direction);
-      return static_cast<scalar>(decode(E, round_result(E, sum, R)));
+      return static_cast<scalar>(decode(E, round_result(E, unpack_longer(x), R)));
     }
   }
   template <class T>
   static constexpr scalar from_integer(T x) {
     // Exact in binary64, and short enough for compilers to fold.
     if constexpr (sizeof(T) <= 4) return from_floating(static_cast<double>(x));
-    const bool negative = x < 0;
-    const auto wide = static_cast<std::uint64_t>(x);
-    const std::uint64_t bits = encode_scaled(E, negative, negative ? ~wide + 1 : wide, 0, false, R, 0);
-    return static_cast<scalar>(decode(E, bits));
+    return static_cast<scalar>(decode(E, round_result(E, unpack_any(x), R)));
   }
 
   Carrier value_;

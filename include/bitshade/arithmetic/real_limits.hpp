@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bitshade/arithmetic/real.hpp"
+#include "bitshade/formats/decimal_limits.hpp"
 
 template <class Format, bitshade::rules R, class Carrier>
 struct std::numeric_limits<bitshade::real<Format, R, Carrier>> {
@@ -13,8 +14,6 @@ struct std::numeric_limits<bitshade::real<Format, R, Carrier>> {
   static constexpr bitshade::encoding E = Format::value;
   static constexpr bool floats = E.kind == bitshade::family::binary;
   static constexpr T code(std::uint64_t bits) { return T::from_bits(static_cast<typename T::bits_type>(bits)); }
-  /// floor(n log10 2) and ceil, for |n| < 10^5.
-  static constexpr int decimal_floor(int n) { return n >= 0 ? n * 30103 / 100000 : -((-n * 30103 + 99999) / 100000); }
 
  public:
   static constexpr bool is_specialized = true;
@@ -42,12 +41,12 @@ struct std::numeric_limits<bitshade::real<Format, R, Carrier>> {
   static constexpr int radix = 2;
   /// Bits of the significand; of norms and fixed point, of the largest code.
   static constexpr int digits = floats ? precision(E) : E.width - (E.has_sign ? 1 : 0);
-  static constexpr int digits10 = decimal_floor(digits - 1);
-  static constexpr int max_digits10 = 2 + digits * 30103 / 100000;
+  static constexpr int digits10 = bitshade::decimal_digits(digits);
+  static constexpr int max_digits10 = bitshade::distinguishing_digits(digits);
   static constexpr int min_exponent = floats ? bitshade::min_exponent(E) + 1 : 0;
   static constexpr int max_exponent = floats ? bitshade::bias(E) + (E.special == bitshade::specials::ieee ? 1 : 2) : 0;
-  static constexpr int min_exponent10 = floats ? -decimal_floor(-(min_exponent - 1)) : 0;
-  static constexpr int max_exponent10 = floats ? decimal_floor(max_exponent) : 0;
+  static constexpr int min_exponent10 = floats ? bitshade::min_exponent10(E) : 0;
+  static constexpr int max_exponent10 = floats ? bitshade::max_exponent10(E) : 0;
   static constexpr bool traps = false;
   static constexpr bool tinyness_before = false;
 

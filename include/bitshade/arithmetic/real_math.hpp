@@ -1,7 +1,8 @@
 // <cmath> for real: every function the exact result, rounded once.
 //
 // Error    correctly rounded wherever the format has at most 24 bits of precision; above that wherever the exact
-//          result is farther than 2^-108 (relative) from a tie or number of the format, else within 1 ulp.
+//          result is farther than 2^-108 (relative) from a tie or number of the format, else within 1 ulp. Of a norm, the
+//          elementary functions take the binary64 nearest to its value; hypot, fmod, remainder and ldexp the value.
 // Source   long_float.hpp, exponential.hpp, trigonometric.hpp; docs/contract.md.
 #pragma once
 
@@ -54,6 +55,21 @@ constexpr double modulo(double x, double y, bool nearest) {
   return std::bit_cast<double>(encode_scaled(wide, negative, rest, low, false, {}, 0));
 }
 
+/// sqrt(x^2 + y^2): one infinite leg is enough, whatever the other.
+constexpr exact_result hypotenuse(double x, double y) {
+  exact_result a = unpack(x), b = unpack(y);
+  using kind = exact_result::kind;
+  if (a.what == kind::infinite || b.what == kind::infinite) return exact_result::infinity(false);
+  if (a.what == kind::nan || b.what == kind::nan) return exact_result::nan();
+  a = {kind::finite, false, a.n * a.n, 2 * a.exponent, false};
+  b = {kind::finite, false, b.n * b.n, 2 * b.exponent, false};
+  const exact_result square = sum_of(a, b, rounding::nearest_even);
+  if (square.is_zero()) return exact_result::zero(false);
+  exact_result result = root_of(square);
+  result.sticky = result.sticky || square.sticky;
+  return result;
+}
+
 }  // namespace detail
 
 // One line a function; the work is done in elementary::.
@@ -95,18 +111,7 @@ BITSHADE_REAL atan2(real<F, R, C> y, std::type_identity_t<real<F, R, C>> x) {
 }
 /// sqrt(x^2 + y^2) without overflow or underflow on the way, rounded once.
 BITSHADE_REAL hypot(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
-  exact_result a = unpack(x.operand()), b = unpack(y.operand());
-  using kind = exact_result::kind;
-  if (a.what == kind::infinite || b.what == kind::infinite)
-    return real<F, R, C>::from_exact(exact_result::infinity(false));
-  if (a.what == kind::nan || b.what == kind::nan) return real<F, R, C>::from_exact(exact_result::nan());
-  a = {kind::finite, false, a.n * a.n, 2 * a.exponent, false};
-  b = {kind::finite, false, b.n * b.n, 2 * b.exponent, false};
-  const exact_result square = sum_of(a, b, R.direction);
-  if (square.is_zero()) return real<F, R, C>::from_exact(exact_result::zero(false));
-  exact_result result = root_of(square);
-  result.sticky = result.sticky || square.sticky;
-  return real<F, R, C>::from_exact(result);
+  return real<F, R, C>::from_grid(detail::hypotenuse(x.on_grid(), y.on_grid()));
 }
 
 BITSHADE_REAL floor(real<F, R, C> x) { return detail::integral(x.operand(), rounding::down); }
@@ -116,10 +121,10 @@ BITSHADE_REAL round(real<F, R, C> x) { return detail::integral(x.operand(), roun
 BITSHADE_REAL rint(real<F, R, C> x) { return detail::integral(x.operand(), rounding::nearest_even); }
 BITSHADE_REAL nearbyint(real<F, R, C> x) { return rint(x); }
 BITSHADE_REAL fmod(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
-  return detail::modulo(x.operand(), y.operand(), false);
+  return real<F, R, C>::from_grid(unpack(detail::modulo(x.on_grid(), y.on_grid(), false)));
 }
 BITSHADE_REAL remainder(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
-  return detail::modulo(x.operand(), y.operand(), true);
+  return real<F, R, C>::from_grid(unpack(detail::modulo(x.on_grid(), y.on_grid(), true)));
 }
 BITSHADE_REAL modf(real<F, R, C> x, real<F, R, C>* whole) {
   *whole = trunc(x);
@@ -156,9 +161,9 @@ BITSHADE_REAL fdim(real<F, R, C> a, std::type_identity_t<real<F, R, C>> b) {
 
 /// x 2^n, rounded once.
 BITSHADE_REAL ldexp(real<F, R, C> x, int n) {
-  exact_result u = unpack(x.operand());
+  exact_result u = unpack(x.on_grid());
   if (u.is_finite()) u.exponent += n;
-  return real<F, R, C>::from_exact(u);
+  return real<F, R, C>::from_grid(u);
 }
 BITSHADE_REAL scalbn(real<F, R, C> x, int n) { return ldexp(x, n); }
 template <class F, rules R, class C> constexpr int ilogb(real<F, R, C> x) {

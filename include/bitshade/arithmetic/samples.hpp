@@ -60,16 +60,35 @@ class samples {
   friend constexpr samples sqrt(const samples& a) {
     return apply([](auto x, auto, std::uint64_t r) { return square_root(E, x, R, r); }, 5, a, a);
   }
+  /// a b + c, each sample rounded once.
+  friend constexpr samples fma(const samples& a, const samples& b, const samples& c) {
+    samples r;
+    r.history_ = mix64(a.history_ + mix64(b.history_ + mix64(c.history_ + 6)));
+    for (std::size_t i = 0; i < N; ++i)
+      r.bits_[i] = fused_multiply_add(E, a.bits_[i], b.bits_[i], c.bits_[i], R, random_bits(r.history_, i));
+    return r;
+  }
   friend constexpr samples operator-(const samples& a) { return samples() - a; }
+  friend constexpr samples operator+(const samples& a) { return a; }
+  friend constexpr samples abs(const samples& a) { return a < samples() ? -a : a; }
   constexpr samples& operator+=(const samples& b) { return *this = *this + b; }
   constexpr samples& operator-=(const samples& b) { return *this = *this - b; }
   constexpr samples& operator*=(const samples& b) { return *this = *this * b; }
   constexpr samples& operator/=(const samples& b) { return *this = *this / b; }
-  // Order is the means'.
+  // Order is the means', and so is equality: of two numbers exactly one of <, == and > holds. Whether two numbers can
+  // be told apart at all is another question, which indistinguishable() answers.
+  friend constexpr bool operator==(const samples& a, const samples& b) { return a.mean() == b.mean(); }
+  friend constexpr bool operator!=(const samples& a, const samples& b) { return !(a == b); }
   friend constexpr bool operator<(const samples& a, const samples& b) { return a.mean() < b.mean(); }
   friend constexpr bool operator>(const samples& a, const samples& b) { return b < a; }
   friend constexpr bool operator<=(const samples& a, const samples& b) { return !(b < a); }
   friend constexpr bool operator>=(const samples& a, const samples& b) { return !(a < b); }
+
+  /// Whether the difference has no significant bit: a stochastic zero [Vignes04].
+  friend constexpr bool indistinguishable(const samples& a, const samples& b) {
+    const samples d = a - b;
+    return d.mean() == 0 || d.significant_bits() < 1;
+  }
 
  private:
   template <class Operation>

@@ -86,7 +86,7 @@ struct wide {
 
   constexpr int bit_length() const {
     for (std::size_t i = Limbs; i-- > 0;) {
-      if (limb[i] != 0) return static_cast<int>(64 * i) + std::bit_width(limb[i]);
+      if (limb[i] != 0) return static_cast<int>(64 * i) + static_cast<int>(std::bit_width(limb[i]));
     }
     return 0;
   }
@@ -138,7 +138,7 @@ constexpr Word leading_bits(const wide<Limbs>& a) {
 /// significand * 2^exponent to the nearest binary64, ties to even; `sticky` says that the true
 /// number lies strictly between significand and significand + 1. The significand has 63 or 64 bits.
 constexpr double round_to_double(std::uint64_t significand, bool sticky, int exponent) {
-  const int width = std::bit_width(significand);
+  const int width = static_cast<int>(std::bit_width(significand));
   const int drop = width - 53;
   std::uint64_t kept = significand >> drop;
   const std::uint64_t rest = significand & ((std::uint64_t{1} << drop) - 1);

@@ -48,8 +48,8 @@ constexpr std::uint64_t assemble(const encoding& e, bool negative, std::int64_t 
 
 /// The bits of (-1)^negative n 2^exponent, plus something below n's last bit if sticky.
 ///
-/// Failure  for norms, which multiply by 2^N - 1 first, n is exact up to 128 - N bits; beyond, or where sticky, x must
-///          not be so near to one of their steps or ties that the missing bits decide.
+/// Failure  none where nothing is sticky. A sticky norm, which is multiplied by 2^N - 1 first, must not be so near to a
+///          step or a tie that the missing bits decide.
 constexpr std::uint64_t encode_scaled(const encoding& e, bool negative, uint128 n, std::int64_t exponent, bool sticky,
                                       const rules& r, std::uint64_t random) {
   if (n == 0 && !sticky) return negative && e.kind == family::binary ? sign_bit(e) : 0;
@@ -62,14 +62,13 @@ constexpr std::uint64_t encode_scaled(const encoding& e, bool negative, uint128 
     }
     case family::unorm:
     case family::snorm: {
-      // Room for the product with 2^N - 1; what a long n loses, a result that was inexact anyway does not miss.
-      const int spare = 128 - e.width - bit_width(n);
-      if (spare < 0) {
-        sticky = sticky || (n & ((uint128{1} << -spare) - 1)) != 0;
-        n >>= -spare;
-        exponent -= spare;
-      }
-      return assemble(e, negative, 0, scaled(n * max_bits(e), exponent, sticky), r, random);
+      // n times 2^N - 1 with n's leading bit at the top: 96 + N bits, of which the 64 lowest lie below any random bit.
+      const int up = 128 - bit_width(n);
+      n <<= up;
+      const uint128 low = uint128{static_cast<std::uint64_t>(n)} * steps_to_one(e);
+      const uint128 high = (n >> 64) * steps_to_one(e) + (low >> 64);
+      sticky = sticky || static_cast<std::uint64_t>(low) != 0;
+      return assemble(e, negative, 0, scaled(high, exponent - up + 64, sticky), r, random);
     }
     case family::ufixed:
     case family::fixed: return assemble(e, negative, 0, scaled(n, exponent + e.fraction_bits, sticky), r, random);

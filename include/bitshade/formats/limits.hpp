@@ -17,6 +17,9 @@ constexpr std::uint64_t sign_bit(const encoding& e) {
   return e.has_sign ? std::uint64_t{1} << (e.width - 1) : 0;
 }
 constexpr bool has_infinity(const encoding& e) { return e.kind == family::binary && e.special == specials::ieee; }
+constexpr bool is_norm(const encoding& e) { return e.kind == family::unorm || e.kind == family::snorm; }
+/// Steps of a norm from 0 to 1: the divisor of its codes.
+constexpr std::uint64_t steps_to_one(const encoding& e) { return low_bits(e.fraction_bits); }
 /// The exponent field, all ones: an infinity of an IEEE format.
 constexpr std::uint64_t infinity_bits(const encoding& e) { return low_bits(e.exponent_bits) << e.fraction_bits; }
 

@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "bitshade/formats/encoding.hpp"
 
@@ -107,28 +105,6 @@ inline std::string name_of(const encoding& e) {
     case family::binary: break;
   }
   return (e.has_sign ? "e" : "ue") + std::to_string(e.exponent_bits) + 'm' + std::to_string(e.fraction_bits);
-}
-
-/// The known name that takes the fewest edits (insert, delete, replace) to reach; the case of letters is none.
-inline std::string_view nearest_name(std::string_view misspelt) {
-  std::string_view best = known_encodings.front().name;
-  std::size_t least = ~std::size_t{0};
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  for (const auto& known : known_encodings) {
-    std::vector<std::size_t> row(known.name.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= misspelt.size(); ++i) {
-      std::size_t diagonal = std::exchange(row[0], i);
-      for (std::size_t j = 1; j < row.size(); ++j) {
-        const std::size_t replaced = diagonal + (small(misspelt[i - 1]) != known.name[j - 1] ? 1 : 0);
-        diagonal = row[j];
-        const std::size_t shifted = (row[j] < row[j - 1] ? row[j] : row[j - 1]) + 1;
-        row[j] = replaced < shifted ? replaced : shifted;
-      }
-    }
-    if (row.back() < least) least = row.back(), best = known.name;
-  }
-  return best;
 }
 
 }  // namespace bitshade

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "bitshade/formats/digits.hpp"
 #include "bitshade/formats/encode.hpp"
-#include "bitshade/formats/natural.hpp"
 
 namespace bitshade {
 
@@ -15,8 +16,8 @@ struct exact_number {
   enum class kind : std::uint8_t { finite, infinite, nan };
   kind what = kind::finite;
   bool negative = false;
-  natural over{0};
-  natural under{1};
+  bool is_ratio = false;
+  digits over, under;
   std::int64_t ten = 0;
   std::int64_t two = 0;
 };
@@ -62,47 +63,37 @@ constexpr std::optional<std::int64_t> exponent_of(std::string_view text) {
 }
 
 /// An unsigned decimal or hexadecimal number without the exponent limit of any format.
-constexpr bool read_magnitude(std::string_view text, natural& n, std::int64_t& ten, std::int64_t& two) {
+constexpr bool read_magnitude(std::string_view text, digits& n, std::int64_t& ten, std::int64_t& two) {
   const bool hex = text.size() > 2 && text[0] == '0' && lower(text[1]) == 'x';
   if (hex) text.remove_prefix(2);
-  const char mark = hex ? 'p' : 'e';
+  n = digits(hex);
   std::int64_t exponent = 0, zeros = 0, dropped = 0;
-  bool any = false, after_point = false, seen_point = false;
-  std::uint64_t chunk = 0, weight = 1;
+  bool any = false, seen_point = false;
   std::size_t i = 0;
   for (; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '.') {
       if (seen_point) return false;
-      seen_point = after_point = true;
+      seen_point = true;
       continue;
     }
     const int digit = hex ? hex_value(c) : (is_digit(c) ? c - '0' : -1);
     if (digit < 0) break;
     any = true;
-    if (after_point) --dropped;
+    if (seen_point) --dropped;
     // Zeros wait until another digit follows: trailing ones only move the exponent.
     if (digit == 0) {
       ++zeros;
       continue;
     }
-    const std::uint64_t base = hex ? 16 : 10;
-    if (weight == 1 && n.is_zero()) zeros = 0;
-    for (; zeros >= 0; --zeros) {
-      chunk = chunk * base + (zeros == 0 ? static_cast<std::uint64_t>(digit) : 0);
-      weight *= base;
-      if (weight >= 100'000'000'000'000'000) {
-        n.multiply_add(weight, chunk);
-        chunk = 0;
-        weight = 1;
-      }
-    }
+    if (!n.is_zero())
+      for (; zeros > 0; --zeros) n.append(0);
     zeros = 0;
+    n.append(static_cast<unsigned>(digit));
   }
-  if (weight != 1) n.multiply_add(weight, chunk);
   if (!any) return false;
   if (i < text.size()) {
-    if (lower(text[i]) != mark) return false;
+    if (lower(text[i]) != (hex ? 'p' : 'e')) return false;
     const auto given = exponent_of(text.substr(i + 1));
     if (!given) return false;
     exponent = *given;
@@ -113,6 +104,27 @@ constexpr bool read_magnitude(std::string_view text, natural& n, std::int64_t& t
     ten = exponent + dropped + zeros;
   }
   return true;
+}
+
+/// The bits of (-1)^negative over 10^ten 2^two / under, both naturals positive; of a norm, over counts its steps.
+constexpr std::uint64_t encode_ratio(const encoding& e, bool negative, natural over, natural under, std::int64_t ten,
+                                     std::int64_t two, const rules& r, std::uint64_t random) {
+  // |log2 x| beyond 1300 is beyond every format, half-steps and 64 random bits included.
+  constexpr std::int64_t beyond = 1300;
+  const std::int64_t binary = over.width() - under.width() + two;
+  // log2 10 = 3.32192809488736...; the product is split to stay within 64 bits.
+  const std::int64_t decimal = ten / 1000000 * 3321928 + ten % 1000000 * 3321928 / 1000000;
+  const std::int64_t size = binary + decimal;
+  const std::int64_t slack = beyond + (ten < 0 ? -ten : ten) / 1000000;
+  leading_bits q{1, size < 0 ? -100000 : 100000, size < 0};
+  if (size >= -slack && size <= slack) {
+    if (ten > 0) over.multiply_power_of_5(ten);
+    if (ten < 0) under.multiply_power_of_5(-ten);
+    q = divide(std::move(over), std::move(under));
+    q.exponent += two + ten;
+  }
+  if (is_norm(e)) return assemble(e, negative, 0, scaled(q.n, q.exponent, q.sticky), r, random);
+  return encode_scaled(e, negative, q.n, q.exponent, q.sticky, r, random);
 }
 
 }  // namespace detail
@@ -140,11 +152,14 @@ constexpr std::optional<exact_number> parse_number(std::string_view text) {
     }
   }
   if (!detail::read_magnitude(left, x.over, x.ten, x.two)) return std::nullopt;
-  if (slash == std::string_view::npos) return x;
+  if (slash == std::string_view::npos) {
+    x.under.append(1);
+    return x;
+  }
+  x.is_ratio = true;
   std::string_view right = detail::trimmed(text.substr(slash + 1));
   if (detail::take_sign(right)) x.negative = !x.negative;
   std::int64_t ten = 0, two = 0;
-  x.under = natural{0};
   if (!detail::read_magnitude(right, x.under, ten, two) || x.under.is_zero()) return std::nullopt;
   x.ten -= ten;
   x.two -= two;
@@ -156,7 +171,8 @@ constexpr std::optional<exact_number> parse_number(std::string_view text) {
 
 /// The bits of an exact number, rounded once. An exponent of a billion costs nothing.
 ///
-/// Failure  none. The time grows with the square of the number of digits, a second for a million.
+/// Failure  none. Time is linear in the number of digits, but for a ratio that its first 800 digits leave undecided
+///          (of two long equal numbers, say): its time grows with their square, seconds for a million digits.
 constexpr std::uint64_t encode(const encoding& e, const exact_number& x, const rules& r = {},
                                std::uint64_t random = 0) {
   if (x.what == exact_number::kind::nan) return encode_nan(e, x.negative, std::uint64_t{1} << 51, r);
@@ -165,26 +181,30 @@ constexpr std::uint64_t encode(const encoding& e, const exact_number& x, const r
     return encode(e, std::bit_cast<double>(inf), r, random);
   }
   if (x.over.is_zero()) return encode_scaled(e, x.negative, 0, 0, false, r, random);
-  // |log2 x| beyond 1300 is beyond every format, half-steps and 64 random bits included.
-  constexpr std::int64_t beyond = 1300;
-  const std::int64_t binary = x.over.width() - x.under.width() + x.two;
-  // log2 10 = 3.32192809488736...; the product is split to stay within 64 bits.
-  const std::int64_t decimal = x.ten / 1000000 * 3321928 + x.ten % 1000000 * 3321928 / 1000000;
-  const std::int64_t size = binary + decimal;
-  const std::int64_t slack = beyond + (x.ten < 0 ? -x.ten : x.ten) / 1000000;
-  leading_bits q{1, size < 0 ? -100000 : 100000, size < 0};
-  if (size >= -slack && size <= slack) {
-    natural over = x.over, under = x.under;
-    // A norm counts in 1 / (2^N - 1): multiply while everything is exact.
-    if (e.kind == family::unorm || e.kind == family::snorm) over.multiply_add(max_bits(e), 0);
-    if (x.ten > 0) over.multiply_power_of_5(x.ten);
-    if (x.ten < 0) under.multiply_power_of_5(-x.ten);
-    q = divide(std::move(over), std::move(under));
-    q.exponent += x.two + x.ten;
+  digits over = x.over;
+  // A norm counts in 1 / (2^N - 1): multiply while everything is exact.
+  if (is_norm(e)) over.multiply(steps_to_one(e));
+  const auto round = [&](digits::leading_part a, digits::leading_part b) {
+    const std::int64_t ten = x.ten + (over.is_hexadecimal() ? 0 : a.dropped) - (x.under.is_hexadecimal() ? 0 : b.dropped);
+    const std::int64_t two =
+        x.two + 4 * ((over.is_hexadecimal() ? a.dropped : 0) - (x.under.is_hexadecimal() ? b.dropped : 0));
+    return detail::encode_ratio(e, x.negative, std::move(a.n), std::move(b.n), ten, two, r, random);
+  };
+  digits::leading_part a = over.leading(), b = x.under.leading();
+  if (!a.cut && !b.cut) return round(std::move(a), std::move(b));
+  if (x.is_ratio) {
+    // Roundings are monotone: where both bounds of the quotient go to the same code, so does the quotient.
+    digits::leading_part most = a, least = b;
+    if (a.cut) most.n.multiply_add(1, 1);
+    if (b.cut) least.n.multiply_add(1, 1);
+    const std::uint64_t low = round(std::move(a), std::move(least)), high = round(std::move(most), std::move(b));
+    return low == high ? low : round(over.whole(), x.under.whole());
   }
-  if (e.kind == family::unorm || e.kind == family::snorm)
-    return assemble(e, x.negative, 0, scaled(q.n, q.exponent, q.sticky), r, random);
-  return encode_scaled(e, x.negative, q.n, q.exponent, q.sticky, r, random);
+  // A digit for all that was cut: no border lies between.
+  a.n.multiply_add(16, 1);
+  digits::leading_part last = std::move(b);
+  last.n.multiply_add(16, 0);
+  return round(std::move(a), std::move(last));
 }
 
 }  // namespace bitshade

@@ -1,6 +1,7 @@
 // e^x, cos and sin of enclosures, so that the techniques' templates run on certified numbers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,12 +17,14 @@ namespace detail {
 template <std::size_t Limbs>
 ball<Limbs> inverse_series(int x, bool alternating) {
   using number = ball<Limbs>;
+  // Radii know nothing below 2^-1000, however many limbs there are.
+  const double enough = std::ldexp(1.0, -std::min(number::bits, 960) - 20);
   number power = number(1) / number(x), sum = power;
   const number square = number(x) * number(x);
   for (int n = 3;; n += 2) {
     power = power / square;
     const number term = power / number(n);
-    if (term.size_above() < std::ldexp(1.0, -number::bits - 20)) {
+    if (term.size_above() < enough) {
       // What is left is less than the next power itself: x >= 3.
       return number::within(sum, power.size_above());
     }

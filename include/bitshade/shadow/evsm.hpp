@@ -116,6 +116,26 @@ void negative_warp_row(std::span<const float> depth, const evsm_constants& c, st
   }
 }
 
+/// Adds a slanted surface's variance within its texel to a warped second moment: (12) with the
+/// chain rule, since a depth's small step dx moves w = e^(c x) by c w dx.
+///
+///   M2 += (c w)^2 ((dx/du)^2 + (dx/dv)^2) / 4
+///
+/// Differences of w itself would be those of a chord, which the warp bends away from its tangent.
+///
+/// Units    slope: slope_variance() of the depths; m1, m2 of the warp that has the constant c.
+/// Policy   every operation is T's.
+/// Failure  none: no sum exceeds the square of the warp's largest value. A limited slope is at most
+///          1 - x each (x for w-), and e^(2 c x) (1 + c^2 (1 - x)^2 / 2) rises up to x = 1: its
+///          derivative's factor 2 + y^2 - y, y = c (1 - x), has no zero. exponent_cap needs no
+///          room.
+/// Source   (12): [LauritzenMcCool08] section 3, on section 7's warp.
+template <class T>
+void add_warped_slope(const T& slope, double c, const T& m1, T& m2) {
+  const T steepness = static_cast<T>(c) * m1;
+  m2 = m2 + (steepness * slope) * steepness;  // its square alone may overflow
+}
+
 /// The floor of a warped depth: a variance of sigma_min^2 in depth, seen through the warp's slope.
 ///
 ///   floor = min(1, sigma_min^2 c^2) w^2

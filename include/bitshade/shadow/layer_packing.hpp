@@ -28,12 +28,12 @@ constexpr int packed_textures(int layers) { return (layers + 1) / 2; }
 /// Source   [LauritzenMcCool08] section 4.4.
 template <class T>
 void layers_row(std::span<const float> depth, std::span<const interval> layers, std::span<T> out,
-                std::size_t stride = 0) {
+                std::size_t stride = 0, layer_warp beyond = layer_warp::clamped) {
   const std::size_t channels = stride == 0 ? 2 * layers.size() : stride;
   for (std::size_t x = 0; x < depth.size(); ++x) {
     const T inside = clamp_depth(static_cast<T>(depth[x]));
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      const T y = warp(inside, layers[i]);
+      const T y = warp(inside, layers[i], beyond);
       out[x * channels + 2 * i] = y;
       out[x * channels + 2 * i + 1] = y * y;
     }

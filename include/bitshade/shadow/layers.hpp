@@ -27,6 +27,12 @@ struct interval {
   friend constexpr bool operator==(const interval&, const interval&) = default;
 };
 
+/// How a layer takes the depths beyond its ends.
+///
+///   clamped     as 0 and 1, (6): an occluder in front of the layer is at its near end
+///   unclamped   where the line leads, (13) by the letter: below 0 and past 1
+enum class layer_warp { clamped, unclamped };
+
 /// Splits s_0 = 0 .. s_N = 1 at equal distances.
 ///
 /// Failure  std::invalid_argument for no layer at all.

@@ -11,17 +11,18 @@ namespace bitshade {
 
 /// The layer's own depth of x: 0 at its near end, 1 at its far end.
 ///
-///   phi(x) = clamp((x - near) / (far - near), 0, 1)
+///   phi(x) = clamp((x - near) / (far - near), 0, 1), or without the clamp
 ///
 /// Policy   every operation is T's; the division by a width of 1 changes nothing, so that a single
 ///          layer over [0,1] is a VSM bit for bit.
 /// Error    none for exact T.
 /// Failure  none for far > near.
-/// Source   [LauritzenMcCool08] section 4.1.
+/// Source   (6): [LauritzenMcCool08] section 4.1; (13), unclamped: [Marinescu11].
 template <class T>
-T warp(const T& x, const interval& layer) {
+T warp(const T& x, const interval& layer, layer_warp beyond = layer_warp::clamped) {
   const T zero = static_cast<T>(0), one = static_cast<T>(1);
   const T inside = (x - static_cast<T>(layer.near)) / static_cast<T>(layer.far - layer.near);
+  if (beyond == layer_warp::unclamped) return inside;
   return select(inside < zero, zero, select(inside > one, one, inside));
 }
 
@@ -60,9 +61,9 @@ T layer_floor(double min_variance, const interval& layer) {
 /// Shapes   depth.size() texels in, `channels` values a texel out; channel 0 is written.
 template <class T>
 void warp_row(std::span<const float> depth, const interval& layer, std::span<T> out,
-              std::size_t channels) {
+              std::size_t channels, layer_warp beyond = layer_warp::clamped) {
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    out[i * channels] = warp(clamp_depth(static_cast<T>(depth[i])), layer);
+    out[i * channels] = warp(clamp_depth(static_cast<T>(depth[i])), layer, beyond);
   }
 }
 
@@ -92,7 +93,27 @@ T limited_slope(const T& before, const T& here, const T& after) {
   return select(back * on <= zero, zero, select(back_size < on_size, back, on));
 }
 
-/// Adds the variance that a slanted surface has within its own texel: equation (12).
+/// The variance that a slanted surface has within its own texel: the term of equation (12).
+///
+///   ((dx/du)^2 + (dx/dv)^2) / 4,  differences per texel, limited at silhouettes
+///
+/// Policy   every operation is T's.
+/// Source   (12): [LauritzenMcCool08], section 3; [Lauritzen07] for the quarter.
+template <class T>
+T slope_variance(const T& left, const T& right, const T& above, const T& below, const T& here) {
+  const T du = limited_slope(left, here, right), dv = limited_slope(above, here, below);
+  return static_cast<T>(0.25) * (du * du + dv * dv);
+}
+
+/// slope_variance() of texel i of a row, whose ends and the rows above and below repeat the border.
+template <class T>
+T slope_variance_in(std::span<const T> above, std::span<const T> here, std::span<const T> below,
+                    std::size_t i) {
+  return slope_variance(here[i == 0 ? 0 : i - 1], here[i + 1 == here.size() ? i : i + 1], above[i],
+                        below[i], here[i]);
+}
+
+/// Adds equation (12) to the second moments of a row.
 ///
 ///   M2 += ((dx/du)^2 + (dx/dv)^2) / 4,  differences per texel of the *warped* depth
 ///
@@ -102,16 +123,11 @@ T limited_slope(const T& before, const T& here, const T& after) {
 /// Shapes   depths of the rows above, here and below (the border repeats), one channel each; row:
 ///          the texels, channel 1 is changed.
 /// Policy   every operation is T's.
-/// Source   (12): [LauritzenMcCool08], section 3; [Lauritzen07] for the quarter.
 template <class T>
 void add_slope_row(std::span<const T> above, std::span<const T> here, std::span<const T> below,
                    std::span<T> row, std::size_t channels) {
-  const T quarter = static_cast<T>(0.25);
   for (std::size_t i = 0; i < here.size(); ++i) {
-    const T left = here[i == 0 ? 0 : i - 1], right = here[i + 1 == here.size() ? i : i + 1];
-    const T du = limited_slope(left, here[i], right);
-    const T dv = limited_slope(above[i], here[i], below[i]);
-    row[i * channels + 1] = row[i * channels + 1] + quarter * (du * du + dv * dv);
+    row[i * channels + 1] = row[i * channels + 1] + slope_variance_in(above, here, below, i);
   }
 }
 

@@ -63,6 +63,9 @@ enum class layer_lookup { own, nearer, every };
 
 inline constexpr std::array<std::string_view, 3> layer_lookup_names{"own", "nearer", "every"};
 
+/// The names of layer_warp, in its order.
+inline constexpr std::array<std::string_view, 2> layer_warp_names{"clamped", "unclamped"};
+
 /// Which solution of the moment problem bounds the light of four moments: depths on the whole line
 /// or in the map's range.
 enum class moment_bound { hamburger, hausdorff };
@@ -90,6 +93,7 @@ struct configuration {
   layer_lookup lookup = layer_lookup::own;
   bool direct_index = false;  ///< uniform layers by ceil(t N) - 1 instead of by search
   double min_width = 0;       ///< splits closer than this are merged; 0: one step of the grid
+  layer_warp warping = layer_warp::clamped;  ///< of depths beyond a layer's ends
   bool one_pass = false;      ///< all layers from one reading of the depths, packed in pairs
   lloyd_choices lloyd;        ///< for the rules that start with Lloyd relaxation
 
@@ -99,6 +103,7 @@ struct configuration {
   double min_variance = 1e-5;  ///< sigma_min^2; the range 1e-6 .. 1e-4 is common
   bool noise_floor = false;    ///< never a floor under what the format's noise needs for 1/255
   bool slope_term = false;     ///< the receiver-slope term (12), limited at silhouettes
+  int smallest_box = 9;        ///< least width of a SAT-VSM's rectangles, in texels
   second_moment second = second_moment::square;
   texel_filter filter = texel_filter::bilinear;
   int max_anisotropy = 1;  ///< 1: isotropic; up to 16
@@ -150,10 +155,14 @@ inline bool takes_samples(technique t) { return t != technique::hard && t != tec
 /// Whether several lookups make one light: of those, a SAT has its own rectangle.
 inline bool averages_lookups(technique t) { return takes_samples(t) && t != technique::savsm; }
 
-/// Whether what the technique stores is blurred as it is; a PCF filters answers, a SAT sums.
+/// Whether what the technique stores is filtered as it is, by blurs, mips and probes; a PCF filters
+/// answers, a SAT sums.
 inline bool blurs_its_map(technique t) {
   return takes_samples(t) && t != technique::pcf && t != technique::savsm;
 }
+
+/// Whether the technique's footprint is made by the kernel of the blur.
+inline bool has_kernel(technique t) { return t != technique::hard && t != technique::savsm; }
 
 inline int configuration::channels() const {
   switch (method) {
@@ -205,11 +214,16 @@ inline std::string configuration::key() const {
         add("min-width", detail::shortest(min_width));
       }
       if (relaxes(splits) && !lloyd.key().empty()) add("lloyd", lloyd.key());
+      if (splits == split_rule::optimal && lloyd.weights != weight_limits{}) {
+        add("lloyd", "weights:" + detail::shortest(lloyd.weights.low) + ".." +
+                         detail::shortest(lloyd.weights.high));
+      }
+      if (warping != layer_warp::clamped) add("layer-warp", "unclamped");
     }
   }
   if (filtered.msaa > 1 && takes_samples(method)) add("msaa", std::to_string(filtered.msaa));
-  if (blurred() && method != technique::hard) {
-    const bool box = filtered.shape == blur_shape::box && method != technique::savsm;
+  if (blurred() && has_kernel(method)) {
+    const bool box = filtered.shape == blur_shape::box;
     add("blur", std::to_string(blur_taps) + "/" + (box ? "box" : detail::shortest(blur_sigma)));
     if (blurs_its_map(method) && filtered.way == blur_way::one_pass) add("blur-way", "one-pass");
     if (blurs_its_map(method) && filtered.way == blur_way::linear) {
@@ -221,18 +235,21 @@ inline std::string configuration::key() const {
   }
   if (uses_floor(method)) {
     add("min-variance", detail::shortest(min_variance));
-    if (noise_floor) add("noise-floor", "on");
+    if (noise_floor && !exact()) add("noise-floor", "on");
+    if (slope_term) add("slope-term", "on");
   }
   if (stores_variance(method)) {
-    if (slope_term) add("slope-term", "on");
     if (second != second_moment::square) {
       add("second-moment", std::string(second_moment_names[static_cast<std::size_t>(second)]));
     }
   }
-  if (method != technique::hard) {
+  if (blurs_its_map(method)) {
     add("filter", std::string(filter_names[static_cast<std::size_t>(filter)]));
     if (max_anisotropy > 1) add("anisotropy", std::to_string(max_anisotropy));
+  } else if (has_kernel(method) && filter == texel_filter::nearest) {
+    add("filter", "nearest");
   }
+  if (method == technique::savsm) add("smallest-box", std::to_string(smallest_box));
   if (method == technique::esm || method == technique::evsm2 || method == technique::evsm4) {
     add("exponent", detail::shortest(exponent));
   }
@@ -312,8 +329,17 @@ inline void configuration::validate() const {
   if (!(exponent > 0 && exponent <= 700 && negative_exponent > 0 && negative_exponent <= 700)) {
     refuse("an exponent is outside 0 to 700");
   }
-  if (method == technique::savsm && slope_term) {
-    refuse("the slope term is for vsm and lvsm: a summed-area table filters over whole slopes");
+  if (smallest_box < 1 || smallest_box > 256) {
+    refuse("smallest box = " + std::to_string(smallest_box) + " texels is outside 1 to 256");
+  }
+  const bool layered = method == technique::lvsm && layers > 1;
+  if (layered && transition && lookup != layer_lookup::own) {
+    refuse("a transition blends a receiver's own layer with the next, but of several layers that " 
+           "are looked up the darkest counts: leave out the one or the other");
+  }
+  if (layered && warping == layer_warp::unclamped && noise_floor) {
+    refuse("the noise floor is derived for depths that a layer clamps to [0,1]: leave it out, or "
+           "clamp");
   }
   if (terms < 1 || terms > 64) refuse("terms = " + std::to_string(terms) + " is outside 1 to 64");
   if (!(moment_bias >= 0 && moment_bias < 1)) {

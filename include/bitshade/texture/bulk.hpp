@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "bitshade/arithmetic/bulk.hpp"
 #include "bitshade/texture/address.hpp"
@@ -59,6 +60,17 @@ void downsample(const image<float>& in, mip_filter filter, row_range rows, image
 void downsample(const texel_code& code, const image<std::uint16_t>& in, mip_filter filter,
                 row_range rows, image<std::uint16_t>& out,
                 instruction_set set = instruction_set::best);
+
+/// All levels over levels[0], as mip_chain makes them: blocks of rows are carried through several
+/// levels while they are in the cache.
+///
+/// Shapes   levels[l] has the size that mip_size gives. how.threads share the blocks.
+/// Policy   downsample's.
+/// Failure  std::invalid_argument for a level of another size, or an instruction set that this
+///          processor lacks.
+void fill_mips(std::span<image<float>> levels, mip_filter filter, const execution& how = {});
+void fill_mips(const texel_code& code, std::span<image<std::uint16_t>> levels, mip_filter filter,
+               const execution& how = {});
 
 /// The table of make_sat(in, sat_order::running, sat_offset::none, ..): along rows, then columns,
 /// in one pass; of codes the binary32 sums of what they decode to.

@@ -29,10 +29,6 @@ constexpr texel_format r11g11b10_format() {
   return {3, {eleven, eleven, ten, ten}};
 }
 
-constexpr bool is_norm(const encoding& e) {
-  return e.kind == family::unorm || e.kind == family::snorm;
-}
-
 /// One image of codes.
 using coded_image = image<std::uint64_t>;
 

@@ -15,24 +15,38 @@ constexpr rounding directions[] = {rounding::nearest_even, rounding::nearest_awa
                                    rounding::up,           rounding::down,         rounding::to_odd};
 constexpr overflow overflows[] = {overflow::ieee, overflow::infinity, overflow::saturate};
 
-struct checker {
-  explicit checker(const encoding& format) : e(format), truth(format) {}
+constexpr subnormals subnormal_policies[] = {subnormals::preserve, subnormals::flush_output, subnormals::flush_input,
+                                             subnormals::flush_both};
 
-  /// One operation in one rotating policy, or in all of them.
-  void check(operation op, std::uint64_t a, std::uint64_t b, std::uint64_t c, bool all) {
-    truth.compute(op, a, b, c);
-    for (int i = 0; i < (all ? 12 : 1); ++i) {
-      const auto k = all ? static_cast<std::uint64_t>(i) : turn++;
+/// A subnormal operand as a zero of its sign, where it is flushed.
+std::uint64_t operand_of(const encoding& e, std::uint64_t bits, bool flush) {
+  const bool subnormal = e.kind == family::binary && ((bits >> e.fraction_bits) & low_bits(e.exponent_bits)) == 0;
+  return flush && subnormal ? bits & sign_bit(e) : bits;
+}
+
+struct checker {
+  explicit checker(const encoding& format) : e(format), kept(format), flushed(format) {}
+
+  /// One operation in the policy whose turn it is, or in twelve of them; 72 make the round.
+  void check(operation op, std::uint64_t a, std::uint64_t b, std::uint64_t c, bool many) {
+    kept.compute(op, a, b, c);
+    const auto zeroed = [&](std::uint64_t bits) { return operand_of(e, bits, true); };
+    const bool same = zeroed(a) == a && zeroed(b) == b && zeroed(c) == c;
+    if (!same) flushed.compute(op, zeroed(a), zeroed(b), zeroed(c));
+    for (int i = 0; i < (many ? 12 : 1); ++i) {
+      const std::uint64_t k = turn++;
       rules r;
       r.direction = directions[k % 6];
       r.overflow = overflows[k / 6 % 3];
-      if (k % 4 == 3) r.subnormal = subnormals::flush_output;
+      r.subnormal = subnormal_policies[(k + k / 18) % 4];
+      oracle::calculator& truth = same || !flushes_input(r.subnormal) ? kept : flushed;
       const std::uint64_t want = truth.bits(r), got = oracle::computed(op, e, a, b, c, r);
       ++seen;
+      zeros += !same && flushes_input(r.subnormal);
       if (got == want || wrong++ != 0) continue;
       first = name_of(e) + ", operation " + std::to_string(int(op)) + " of " + oracle::hex(a) + ' ' + oracle::hex(b) +
-              ' ' + oracle::hex(c) + ", direction " + std::to_string(int(r.direction)) + ": got " + oracle::hex(got) +
-              ", MPFR has " + oracle::hex(want);
+              ' ' + oracle::hex(c) + ", direction " + std::to_string(int(r.direction)) + ", subnormals " +
+              std::to_string(int(r.subnormal)) + ": got " + oracle::hex(got) + ", MPFR has " + oracle::hex(want);
     }
   }
   void finish() const {
@@ -42,8 +56,8 @@ struct checker {
   }
 
   encoding e;
-  oracle::calculator truth;
-  std::uint64_t turn = 0, seen = 0, wrong = 0;
+  oracle::calculator kept, flushed;
+  std::uint64_t turn = 0, seen = 0, wrong = 0, zeros = 0;
   std::string first;
 };
 
@@ -64,6 +78,23 @@ TEST_CASE("all pairs of boundary codes agree with MPFR in every format") {
       }
     }
     c.finish();
+  }
+}
+
+TEST_CASE("every code of every 16-bit float is an operand as MPFR has it, flushed or not") {
+  for (int exponent = 2; exponent <= 11; ++exponent) {
+    for (const encoding& e : {binary_encoding(exponent, 15 - exponent), unsigned_binary_encoding(exponent, 16 - exponent)}) {
+      checker c(e);
+      const auto others = oracle::boundary_codes(e);
+      for (std::uint64_t a = 0; a < 65536; ++a) {
+        const std::uint64_t b = others[a % others.size()], z = others[a / 7 % others.size()];
+        const operation op = static_cast<operation>(a % 11 % 6);
+        if (a % 2 == 0) c.check(op, a, b, z, false);
+        else c.check(op, b, a, z, false);
+      }
+      CHECK(c.zeros > (std::uint64_t{1} << e.fraction_bits) / 8);
+      c.finish();
+    }
   }
 }
 

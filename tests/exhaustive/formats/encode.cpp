@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bitshade/formats/decode.hpp"
+#include "bitshade/formats/round_to.hpp"
 #include "bitshade/formats/name.hpp"
 #include "bitshade/formats/random.hpp"
 #include "support/catch.hpp"
@@ -137,5 +137,40 @@ TEST_CASE("decode gives the binary64 nearest to every code's value, and encode t
     }
     INFO(name);
     CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("decode flushes the subnormal codes of every 16-bit float, and no others") {
+  oracle::number exact(128);
+  constexpr subnormals policies[] = {subnormals::preserve, subnormals::flush_output, subnormals::flush_input,
+                                     subnormals::flush_both};
+  for (int exponent = 2; exponent <= 11; ++exponent) {
+    for (const encoding& e : {binary_encoding(exponent, 15 - exponent), unsigned_binary_encoding(exponent, 16 - exponent)}) {
+      std::size_t wrong = 0, flushed = 0;
+      std::string first;
+      for (std::uint64_t code = 0; code < 65536; ++code) {
+        oracle::value(exact, e, code);
+        // Subnormal: nearer to 0 than 2 to the format's least exponent.
+        const bool subnormal = mpfr_number_p(exact) != 0 && mpfr_zero_p(exact) == 0 &&
+                               mpfr_get_exp(exact) - 1 < 2 - (1L << (exponent - 1));
+        const double value = mpfr_get_d(exact, MPFR_RNDN);
+        for (const subnormals policy : policies) {
+          rules r;
+          r.subnormal = policy;
+          const bool zero = subnormal && flushes_input(policy);
+          const double want = zero ? std::copysign(0.0, value) : value, got = decode(e, code, r);
+          flushed += zero ? 1 : 0;
+          // What is read as zero is encoded as zero again.
+          const bool back = std::isnan(want) || round_to(e, want, r) == want || flushes_output(policy);
+          const bool same = std::isnan(want) ? std::isnan(got)
+                                             : std::bit_cast<std::uint64_t>(got) == std::bit_cast<std::uint64_t>(want);
+          if ((!same || !back) && wrong++ == 0)
+            first = oracle::hex(code) + ", subnormals " + std::to_string(int(policy)) + ": " + std::to_string(got);
+        }
+      }
+      INFO(name_of(e) << ": " << wrong << " wrong, the first " << first);
+      CHECK(wrong == 0);
+      CHECK(flushed == (e.has_sign ? 4 : 2) * ((std::uint64_t{1} << e.fraction_bits) - 1));
+    }
   }
 }

@@ -35,11 +35,9 @@ static_assert(numeric_policy<half_filter> && std::is_empty_v<half_filter>);
 static_assert(std::is_same_v<half_filter::shade, float> && std::is_same_v<policy<binary64>::shade, double>);
 }  // namespace
 
-TEST_CASE("names survive a round trip, and a misspelt one finds its neighbour") {
+TEST_CASE("names survive a round trip") {
   for (const auto& known : known_encodings) CHECK(parse_encoding(name_of(known.value)) == known.value);
   for (const char* name : {"e5m7", "unorm12", "snorm9", "ufixed2.30", "fixed4.12", "ue5m6"}) {
     CHECK(name_of(parse_encoding(name).value()) == name);
   }
-  CHECK(nearest_name("bfoat16") == "bfloat16");
-  CHECK(nearest_name("HALF") == "half");
 }

@@ -41,8 +41,9 @@ TEST_CASE("intervals enclose the exact result, with the nearest bounds") {
     const interval<double> p(a), q(b);
     bool good = encloses(p + q, x + y) && encloses(p - q, x - y) && encloses(p * q, x * y) && encloses(p / q, x / y);
     const interval<real<binary16>> h(a), k(b);
-    const exact_rational u(static_cast<double>(h.lower())), v(static_cast<double>(k.lower()));
-    if (std::fabs(a) < 100 && std::fabs(b) < 100) good = good && encloses(h + k, u + v) && encloses(h * k, u * v);
+    // A number that half does not hold is enclosed as well, and so are its results.
+    if (std::fabs(a) < 100 && std::fabs(b) < 100)
+      good = good && encloses(h, x) && encloses(k, y) && encloses(h + k, x + y) && encloses(h * k, x * y);
     wide += std::nextafter((p / q).lower(), 1e300) < (p / q).upper();
     INFO(std::hexfloat << a << ' ' << b);
     CHECK(good);

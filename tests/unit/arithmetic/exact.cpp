@@ -1,3 +1,6 @@
+#include <cmath>
+#include <stdexcept>
+
 #include "bitshade/arithmetic/policy.hpp"
 #include "bitshade/interop/rational.hpp"
 #include "support/catch.hpp"
@@ -12,4 +15,11 @@ TEST_CASE("exact takes every double as it is and loses nothing") {
   CHECK(static_cast<double>(exact_rational(1) / exact_rational(3)) == 1.0 / 3);
   CHECK(std::is_same_v<bitshade::policy<exact_rational>::filter, exact_rational>);
   CHECK(std::is_same_v<bitshade::policy<exact_rational>::store, bitshade::unrounded>);
+}
+
+TEST_CASE("exact refuses what is no rational") {
+  for (const double x : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    CHECK_THROWS_AS(exact_rational(x), std::domain_error);
+    CHECK_THROWS_AS(exact_rational(static_cast<float>(x)), std::domain_error);
+  }
 }

@@ -2,7 +2,6 @@
 // and against rationals and closed forms in exact arithmetic.
 #include <bit>
 #include <cmath>
-#include <random>
 
 #include "bitshade/shadow/chebyshev.hpp"
 #include "bitshade/shadow/moments.hpp"
@@ -10,7 +9,6 @@
 #include "bitshade/texture/blur.hpp"
 #include "bitshade/texture/blur_variants.hpp"
 #include "bitshade/texture/resolve.hpp"
-#include "io/error.hpp"
 #include "run/lookup.hpp"
 #include "run/pipeline.hpp"
 #include "run/storage.hpp"
@@ -24,20 +22,6 @@ using test::nearest_double;
 namespace {
 
 using q = exact_rational;
-
-/// The same frame with a few of its samples' depths changed.
-frame with_samples(frame scene, int count, unsigned seed) {
-  std::mt19937 random(seed);
-  for (const sample_position at : sample_pattern(count)) {
-    if (count == 1) break;
-    map_sample s{scene.depth, scene.surface, at};
-    for (float& x : s.depth.texels) {
-      if (random() % 3 == 0) x = static_cast<float>(random() >> 8) * 0x1p-24F;
-    }
-    scene.samples[count].push_back(std::move(s));
-  }
-  return scene;
-}
 
 cell run(const frame& scene, const configuration& how, int threads = 2) {
   return run_pipeline(scene, how, make_plan(scene, how), threads);
@@ -135,7 +119,7 @@ std::vector<configuration> variants() {
 
 TEST_CASE("samples, ways to blur and lookups are their definitions, bit for bit, in every format") {
   for (configuration how : variants()) {
-    const auto scene = with_samples(test::small_frame(17, 13, 80, 31), how.filtered.msaa, 32);
+    const auto scene = test::with_samples(test::small_frame(17, 13, 80, 31), how.filtered.msaa, 32);
     for (const auto& name : {"unorm8", "unorm16", "snorm16", "half", "bfloat16", "binary32"}) {
       how.format = name;
       const storage_format format = storage_named(name);
@@ -156,7 +140,7 @@ TEST_CASE("samples, ways to blur and lookups are their definitions, bit for bit,
 
 TEST_CASE("in exact arithmetic they are rationals rounded once: blurs of any way are one blur") {
   for (configuration how : variants()) {
-    const auto scene = with_samples(test::small_frame(9, 8, 25, 33), how.filtered.msaa, 34);
+    const auto scene = test::with_samples(test::small_frame(9, 8, 25, 33), how.filtered.msaa, 34);
     how.format = "exact";
     how.min_variance = 1e-7;
     configuration plain = how;  // exact kernels have no fractions and no passes
@@ -177,7 +161,7 @@ TEST_CASE("two planes under one texel: coverage by samples gives the exact light
   // Receivers on the far plane, k of n samples on the near one: p is the uncovered share (C1).
   for (const int n : {2, 4, 8}) {
     for (int covered = 0; covered <= n; ++covered) {
-      frame scene = with_samples(test::small_frame(4, 4, 1, 1), n, 1);
+      frame scene = test::with_samples(test::small_frame(4, 4, 1, 1), n, 1);
       scene.receivers[0] = receiver{};
       scene.receivers[0].u = scene.receivers[0].v = 0.375F;
       scene.receivers[0].t = 0.75F;
@@ -241,7 +225,7 @@ TEST_CASE("equal samples are left out with evidence, and simulating them changes
 }
 
 TEST_CASE("every technique takes samples and lookups: plan right, light in [0,1], any threads") {
-  const auto scene = with_samples(test::small_frame(15, 11, 40, 51), 4, 52);
+  const auto scene = test::with_samples(test::small_frame(15, 11, 40, 51), 4, 52);
   for (const technique method :
        {technique::pcf, technique::vsm, technique::lvsm, technique::savsm, technique::evsm2,
         technique::evsm4, technique::esm, technique::csm, technique::msm}) {
@@ -265,92 +249,4 @@ TEST_CASE("every technique takes samples and lookups: plan right, light in [0,1]
       for (const double v : one.visibility) CHECK((v != v || (v >= 0 && v <= 1)));
     }
   }
-}
-
-TEST_CASE("PCF over a VSM never gives less light than PCF over the same lookups, exactly") {
-  const auto scene = with_samples(test::small_frame(19, 16, 120, 61), 2, 62);
-  for (const technique method : {technique::vsm, technique::evsm4}) {
-    configuration how;
-    how.method = method;
-    how.format = "exact";
-    how.blur_taps = 3;
-    how.min_variance = 0;
-    how.filtered.lookups = 3;
-    how.filtered.msaa = 2;
-    const auto got = run(scene, how);
-    const auto truth = truth_pcf(scene, how);
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-      if (truth[i] == truth[i]) CHECK(got.visibility[i] >= truth[i] - 0x1p-53);
-    }
-  }
-}
-
-TEST_CASE("PCF kernels: 2x2 with bilinear weights, 3x3 box and Gaussian, 9x9 Gaussian") {
-  // One near texel in an empty map: its weight in each kernel is what the receiver loses.
-  frame scene = test::small_frame(32, 32, 1, 1);
-  for (float& x : scene.depth.texels) x = 1;
-  scene.depth.at(10, 12) = 0.25F;
-  receiver& r = scene.receivers[0];
-  r = receiver{};
-  r.surface = 1;
-  r.t = 0.5F;
-  r.u = (10.5F + 0.25F) / 32;  // a quarter of a texel to the right
-  r.v = 12.5F / 32;
-  configuration how;
-  how.method = technique::pcf;
-  const auto lit = [&](const std::string& format) {
-    how.format = format;
-    return run(scene, how).visibility[0];
-  };
-  const auto check = [&](double weight) {
-    CAPTURE(how.key());
-    CHECK(std::fabs(lit("exact") - (1 - weight)) <= 0x1p-52);
-    CHECK(std::fabs(lit("binary32") - (1 - weight)) <= 9 * 9 * 0x1p-24);
-    CHECK(std::fabs(lit("half") - (1 - weight)) <= 9 * 9 * 0x1p-24);
-  };
-  how.blur_taps = 0;
-  check(0.75);  // bilinear: 3/4 of the texel itself
-
-  how.filter = texel_filter::nearest;
-  how.blur_taps = 3;
-  how.filtered.shape = blur_shape::box;
-  const double third = box_kernel(3).weights[1];
-  CHECK(std::fabs(third - 1.0 / 3) <= 0x1p-24);
-  check(third * third);
-
-  how.filtered.shape = blur_shape::gaussian;
-  how.blur_sigma = 1;
-  const double middle = gaussian_kernel(3, 1).weights[1];
-  check(middle * middle);
-
-  how.filter = texel_filter::bilinear;
-  how.blur_taps = 9;
-  how.blur_sigma = 2;
-  const auto nine = gaussian_kernel(9, 2).weights;
-  check((0.75 * nine[4] + 0.25 * nine[3]) * nine[4]);
-}
-
-TEST_CASE("fractions on the grid are left out of a linear-sampled blur, and no others") {
-  const auto scene = test::small_frame(16, 16, 100, 71);
-  configuration how;
-  how.filtered.way = blur_way::linear;
-  const auto fractions = [&] { return make_plan(scene, how).effects.back(); };
-  CHECK(fractions().simulated());
-  CHECK(fractions().evidence == "4 of 5 fetches lie between steps of 2^-8 texels");
-  how.filtered.shape = blur_shape::box;  // pairs of equal weights meet in their middle
-  CHECK_FALSE(fractions().needed);
-  CHECK(fractions().evidence == "0 of 5 fetches lie between steps of 2^-8 texels");
-  const plan p = make_plan(scene, how);
-  CHECK(same_bits(run_pipeline(scene, how, p).visibility,
-                  run_pipeline(scene, how, p.everything()).visibility));
-}
-
-TEST_CASE("a map without samples refuses them, and says what it has") {
-  const auto scene = test::small_frame(8, 8, 4, 81);
-  configuration how;
-  how.filtered.msaa = 4;
-  CHECK_THROWS_WITH(make_plan(scene, how),
-                    Catch::Contains("this depth map has one sample a texel"));
-  how.filtered.msaa = 3;
-  CHECK_THROWS_WITH(make_plan(scene, how), Catch::Contains("1, 2, 4 or 8"));
 }

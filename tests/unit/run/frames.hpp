@@ -54,4 +54,18 @@ inline frame small_frame(int width, int height, int receivers, unsigned seed, bo
   return scene;
 }
 
+/// The same frame with a few of its samples' depths changed.
+inline frame with_samples(frame scene, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  for (const sample_position at : sample_pattern(count)) {
+    if (count == 1) break;
+    map_sample s{scene.depth, scene.surface, at};
+    for (float& x : s.depth.texels) {
+      if (random() % 3 == 0) x = static_cast<float>(random() >> 8) * 0x1p-24F;
+    }
+    scene.samples[count].push_back(std::move(s));
+  }
+  return scene;
+}
+
 }  // namespace bitshade::test

@@ -52,13 +52,36 @@ std::vector<configuration> configurations() {
   c.method = technique::evsm2;
   c.filter = texel_filter::trilinear;
   all.push_back(c);
+  // Filters before shading, lookups and slopes.
+  for (const technique method : {technique::vsm, technique::lvsm, technique::evsm4}) {
+    c = {};
+    c.method = method;
+    c.layers = method == technique::lvsm ? 2 : 1;
+    c.blur_taps = 5;
+    c.slope_term = true;
+    c.filtered.way = blur_way::one_pass;
+    all.push_back(c);
+    c.filtered.way = blur_way::linear;
+    c.filtered.msaa = 4;
+    all.push_back(c);
+    c.filtered = {2, blur_shape::box, blur_way::separable, 8, 3};
+    c.transition = true;
+    c.bleeding_reduction = 0.25;
+    all.push_back(c);
+  }
+  c = {};
+  c.method = technique::lvsm;
+  c.layers = 2;
+  c.warping = layer_warp::unclamped;
+  all.push_back(c);
   return all;
 }
 
 }  // namespace
 
 TEST_CASE("with every stage in the format a staged run is the plain run, bit for bit") {
-  const auto scene = test::small_frame(16, 16, 60, 21);
+  const auto scene =
+      test::with_samples(test::with_samples(test::small_frame(16, 16, 60, 21), 2, 26), 4, 27);
   for (auto how : configurations()) {
     for (const auto* format : {"unorm16", "half", "binary32", "e5m7"}) {
       how.format = format;
@@ -69,7 +92,8 @@ TEST_CASE("with every stage in the format a staged run is the plain run, bit for
 }
 
 TEST_CASE("with no stage in the format a staged run is the exact run, bit for bit") {
-  const auto scene = test::small_frame(16, 16, 60, 22);
+  const auto scene =
+      test::with_samples(test::with_samples(test::small_frame(16, 16, 60, 22), 2, 28), 4, 29);
   for (auto how : configurations()) {
     auto exact = how;
     exact.format = "exact";
@@ -119,6 +143,18 @@ TEST_CASE("Lloyd's reduction is a stage where splits are relaxed") {
   const auto stages = stages_of(how);
   REQUIRE(stages.front() == stage::splits);
   CHECK(same_bits(run_staged(scene, how, {}).visibility, plain(scene, how).visibility));
+}
+
+TEST_CASE("samples are resolved in a stage of their own, and a box of eight bits is guilty there") {
+  const auto scene = test::with_samples(test::small_frame(16, 16, 100, 25), 8, 30);
+  configuration how;
+  how.format = "unorm8";
+  how.filtered.msaa = 8;
+  how.blur_taps = 0;
+  const blame b = blame_of(scene, how, {});
+  REQUIRE(b.stages.size() == 5);
+  CHECK(b.stages[1].which == stage::resolve);
+  CHECK(b.stages[1].alone.rmse > 100 * b.stages[4].alone.rmse);
 }
 
 TEST_CASE("stages that cannot be taken apart are refused with a cure") {

@@ -20,7 +20,7 @@ TEST_CASE("exact savsm in integers equals rationals") {
       how.method = technique::savsm;
       how.format = "exact";
       how.min_variance = floor;
-      how.blur_taps = 3;
+      how.smallest_box = 3;
       how.bleeding_reduction = tiny ? 0.25 : 0;
       const auto got = run_pipeline(scene, how, make_plan(scene, how)).visibility;
       for (std::size_t i = 0; i < got.size(); ++i) {
@@ -49,7 +49,7 @@ TEST_CASE("integer tables lose nothing, however they wrap; float tables drift") 
   auto scene = test::small_frame(300, 200, 400, 21);
   configuration how;
   how.method = technique::savsm;
-  how.blur_taps = 7;
+  how.smallest_box = 7;
   how.min_variance = 1e-4;
   const auto run = [&](const std::string& format) {
     how.format = format;

@@ -143,8 +143,8 @@ TEST_CASE("dynamic programming is no worse than any start of the relaxation, or 
   }
 }
 
-TEST_CASE("a pyramid in binary64 gives the samples' own sums") {
-  for (const auto& [w, h] : {std::pair{16, 16}, {13, 7}, {1, 9}}) {
+TEST_CASE("a pyramid in binary64 gives the samples' own sums, for maps of any size") {
+  for (const auto& [w, h] : {std::pair{16, 16}, {13, 7}, {1, 9}, {63, 63}, {31, 2}}) {
     image<lloyd_sample> map(w, h);
     std::mt19937_64 random(5);
     for (auto& s : map.texels)
@@ -155,8 +155,12 @@ TEST_CASE("a pyramid in binary64 gives the samples' own sums") {
     const auto exact = field.between(0.25, 0.75);
     const auto reduced = pyramid.between(0.25, 0.75);
     CAPTURE(w, h);
-    if (w == 16) CHECK(reduced.weight * w * h == static_cast<double>(exact.weight) * 0x1p-32);
-    if (w == 16) CHECK(std::fabs(reduced.mean() - exact.mean()) <= split_grid);
-    CHECK(reduced.weight > 0);
+    // A level's mean is of up to 9 products and a quotient: 10 roundings, of at most 6 levels.
+    const double weight = static_cast<double>(exact.weight) * 0x1p-32;
+    CHECK(std::fabs(reduced.weight * w * h - weight) <= 6 * 10 * 0x1p-53 * weight);
+    CHECK(std::fabs(reduced.mean() - exact.mean()) <= split_grid);
+    const double cost = field.cost(0.25, 0.75, 0.5);
+    CHECK(std::fabs(pyramid.cost(0.25, 0.75, 0.5) * w * h - cost) <= 1e-9 * weight);
+    if (w == 16) CHECK(reduced.weight * w * h == weight);  // divisions by 4: no rounding at all
   }
 }

@@ -77,6 +77,36 @@ TEST_CASE("bulk::downsample decodes before and encodes after") {
   }
 }
 
+TEST_CASE("bulk::fill_mips gives mip_chain's levels on any number of threads") {
+  const std::pair<int, int> tall[] = {{1, 1}, {1, 8}, {6, 64}, {33, 320}, {130, 192}, {40, 129}};
+  for (const auto& [width, height] : tall) {
+    for (const auto filter : {mip_filter::box, mip_filter::centre, mip_filter::area}) {
+      const image<float> base = noise(width, height, 2, 11);
+      const auto expected = mip_chain<float>(base, filter, [](std::span<float>) {});
+      for (const unsigned threads : {1u, 2u, 7u}) {
+        auto levels = expected;
+        for (std::size_t l = 1; l < levels.size(); ++l) std::ranges::fill(levels[l].texels, -1.0f);
+        bulk::fill_mips(levels, filter, {.threads = threads});
+        for (std::size_t l = 1; l < levels.size(); ++l) {
+          CAPTURE(width, height, static_cast<int>(filter), threads, l);
+          CHECK(difference(levels[l], expected[l]) == "");
+        }
+      }
+    }
+    const bulk::texel_code half{binary16::value, {}};
+    std::vector<image<std::uint16_t>> codes{codes_of(half, noise(width, height, 1, 12))};
+    const auto expected = mip_chain<float>(values_of(half, codes[0]), mip_filter::box,
+        [&](std::span<float> row) { bulk::round(half.format, half.rule, row, row); });
+    for (std::size_t l = 1; l < expected.size(); ++l)
+      codes.emplace_back(expected[l].width, expected[l].height, 1);
+    bulk::fill_mips(half, codes, mip_filter::box, {.threads = 3});
+    for (std::size_t l = 1; l < codes.size(); ++l)
+      CHECK(difference(codes[l], codes_of(half, expected[l])) == "");
+  }
+  std::vector<image<float>> wrong{image<float>(8, 8, 1), image<float>(4, 3, 1)};
+  CHECK_THROWS_AS(bulk::fill_mips(wrong, mip_filter::box), std::invalid_argument);
+}
+
 TEST_CASE("bulk::sum_area gives the running table's bits on any number of threads") {
   for (const auto [width, height] : sizes) {
     for (const int channels : {1, 2, 3, 4}) {

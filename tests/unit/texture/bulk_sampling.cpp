@@ -27,6 +27,19 @@ coordinates places(int width, int height) {
     seed = seed * 1664525u + 1013904223u;
     return static_cast<float>(seed >> 8) * 0x1p-24f;
   };
+  // Vectors of samples inside the image, and such with a single sample just beyond the first or the
+  // last texel's centre.
+  const auto inside = [&](int size) {
+    return (0.5f + next() * static_cast<float>(size - 1)) / static_cast<float>(size);
+  };
+  for (int i = 0; i < 512; ++i) {
+    at.u.push_back(inside(width));
+    at.v.push_back(inside(height));
+    const bool lone = i % 16 == i / 16 % 16;
+    if (lone && i / 16 % 4 == 1) at.u.back() = 0.25f / static_cast<float>(width);
+    if (lone && i / 16 % 4 == 2) at.v.back() = 0.25f / static_cast<float>(height);
+    if (lone && i / 16 % 4 == 3) at.u.back() = 1 - 0.25f / static_cast<float>(width);
+  }
   for (int i = 0; i < 600; ++i) {
     at.u.push_back(i % 3 == 0 ? 3 * next() - 1 : next());
     at.v.push_back(i % 5 == 0 ? 3 * next() - 1 : next());

@@ -1,0 +1,65 @@
+#include "texture/passes.hpp"
+
+#include <thread>
+
+namespace bench {
+namespace {
+
+constexpr double scaling_limit = 1 / 0.9;
+const std::string both = ", two cores";
+
+void add_both(table& table, const std::string& group, const std::string& name, std::size_t elements,
+              const std::function<void(int)>& work) {
+  table.add({group, name, elements, [=] { work(1); }, {}, "", 0, {}});
+  table.add({group, name + both, elements, [=] { work(2); }, {}, name, 0, {}});
+}
+
+template <class T>
+void add_copy_of_image(table& table, const std::string& group, int channels) {
+  const auto from = make_image<T>(size, size, channels), to = make_image<T>(size, size, channels);
+  const auto work = [=](int threads) {
+    on_threads(threads, size, [&](int first, int last) {
+      const auto n = static_cast<std::size_t>(last - first) * from->row_size() * sizeof(T);
+      std::memcpy(to->row(first).data(), from->row(first).data(), n);
+    });
+  };
+  const std::string bits = std::to_string(8 * sizeof(T));
+  add_both(table, group, "an image of " + bits + " bits copied", from->texels.size(), work);
+}
+
+}  // namespace
+
+void on_threads(int threads, int n, const std::function<void(int, int)>& work) {
+  if (threads == 1) return work(0, n);
+  const std::jthread other([&] { work(0, n / 2); });
+  work(n / 2, n);
+}
+
+void add_copies(table& table, const std::string& group, int channels) {
+  constexpr std::size_t bytes = std::size_t{1} << 27;
+  static const auto from = std::make_shared<std::vector<char>>(bytes, 'a'),
+                    to = std::make_shared<std::vector<char>>(bytes);
+  const auto work = [](int threads) {
+    constexpr int blocks = 128;
+    on_threads(threads, blocks, [](int first, int last) {
+      const std::size_t block = bytes / blocks, at = static_cast<std::size_t>(first) * block;
+      std::memcpy(to->data() + at, from->data() + at,
+                  static_cast<std::size_t>(last - first) * block);
+    });
+  };
+  add_both(table, group, copy_of(32), bytes / 4, work);
+  add_both(table, group, copy_of(16), bytes / 2, work);
+  add_copy_of_image<float>(table, group, channels);
+  add_copy_of_image<std::uint16_t>(table, group, channels);
+}
+
+void add_pass(table& table, const std::string& group, const std::string& name, double elements,
+              const std::function<void(int)>& work, const std::function<std::string()>& check,
+              int bits, double limit) {
+  const auto n = static_cast<std::size_t>(elements);
+  table.add({group, name, n, [=] { work(1); }, check, copy_of(bits), limit, {}});
+  const double wanted = limit == 0 ? 0 : scaling_limit;
+  table.add({group, name + both, n, [=] { work(2); }, check, name, wanted, copy_of(bits) + both});
+}
+
+}  // namespace bench
