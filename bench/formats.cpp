@@ -60,7 +60,7 @@ const char* name_of_set(instruction_set s) { return s == instruction_set::avx512
 
 struct maker {
   bench::table& table;
-  // One for all rows: where it lies, against the input and in the caches, is worth several hundredths.
+  // One for all rows: where it lies in the caches is worth several hundredths.
   shared cache_out = bench::make_array<float>(in_cache), memory_out = bench::make_array<float>(in_memory);
 
   shared output(std::size_t n) const { return n == in_cache ? cache_out : memory_out; }
