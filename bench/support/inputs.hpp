@@ -9,11 +9,13 @@
 
 namespace bench {
 
-/// 64-byte aligned, so that every contestant meets the same cache lines.
+/// Aligned to pages, so that every contestant meets the same cache lines, and no load has the low twelve bits of the
+/// address of a store just before it, for which it would wait.
 template <class T>
 struct array {
+  static constexpr std::size_t page = 4096;
   explicit array(std::size_t n)
-      : size(n), owner(static_cast<T*>(std::aligned_alloc(64, (n * sizeof(T) + 63) / 64 * 64)), &std::free) {}
+      : size(n), owner(static_cast<T*>(std::aligned_alloc(page, (n * sizeof(T) + page - 1) / page * page)), &std::free) {}
   std::size_t size;
   std::unique_ptr<T, decltype(&std::free)> owner;
   T* data = owner.get();

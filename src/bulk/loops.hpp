@@ -30,8 +30,9 @@ template <class V, class In, class Out, class Step>
   for (std::size_t k = 0; j + k < n; ++k) out[j + k] = last_out[k];
 }
 
-/// Runs put(out, step(in, random bits, undecided)) over blocks of 32 numbers whose counters 32 divides; the first and last
-/// may be shorter and go through a buffer. Where a step cannot decide, decide(in, out, first) does the vector's numbers.
+/// Runs put(out, step(in, random bits, undecided)) over blocks of 32 numbers whose counters 32 divides; the first and the
+/// last may be shorter and go through a buffer. Where a step cannot decide, decide(in, out, first) does its vector and
+/// the few beside it.
 template <class V, class In, class Out, class Step, class Put, class Decide>
 [[gnu::always_inline]] inline void over_random(const plan& p, const void* source, void* target, std::size_t n,
                                                Step step, Put put, Decide decide) {
@@ -41,31 +42,28 @@ template <class V, class In, class Out, class Step, class Put, class Decide>
   Out* out = static_cast<Out*>(target);
   random_block<V> random(p);
   // `first` is the number of the block's first element, below 0 (modulo 2^64) where the block began before the span.
-  const auto whole = [&](const In* a, Out* b, std::size_t first) __attribute__((always_inline)) {
+  const auto whole = [&](const In* a, Out* b, std::size_t first) {
     random.draw();
 #pragma GCC unroll 2
     for (std::size_t g = 0; g < vectors; g += group) {
       using result = decltype(step(a, random.bits(0), *static_cast<typename V::m*>(nullptr)));
       result r[group];
-      typename V::m undecided[group]{}, any{};
+      typename V::m undecided{};
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < group; ++k) {
-        r[k] = step(a + (g + k) * width, random.bits(g + k), undecided[k]);
-        any = static_cast<typename V::m>(any | undecided[k]);
+        typename V::m one{};
+        r[k] = step(a + (g + k) * width, random.bits(g + k), one);
+        undecided = static_cast<typename V::m>(undecided | one);
       }
-      if (V::any(any)) [[unlikely]] {
-        for (std::size_t k = 0; k < group; ++k) {
-          const std::size_t at = (g + k) * width;
-          if (V::any(undecided[k])) decide(a + at, b + at, first + at);
-          else put(b + at, r[k]);
-        }
+      if (V::any(undecided)) [[unlikely]] {
+        for (std::size_t k = g; k < g + group; ++k) decide(a + k * width, b + k * width, first + k * width);
         continue;
       }
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < group; ++k) put(b + (g + k) * width, r[k]);
     }
   };
-  const auto part = [&](std::size_t skip, std::size_t j, std::size_t m) __attribute__((noinline)) {
+  const auto part = [&](std::size_t skip, std::size_t j, std::size_t m) {
     In some_in[block] = {};
     Out some_out[block];
     for (std::size_t k = 0; k < m; ++k) some_in[skip + k] = in[j + k];

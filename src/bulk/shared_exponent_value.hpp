@@ -15,10 +15,10 @@ struct shared_exponent_value : value_numbers<V> {
   using i = typename n::i;
   using m = typename n::m;
   using word = typename n::word;
-  static constexpr setting wants = D == rounding::nearest_even ? setting::nearest : setting::toward_zero;
+  static constexpr setting wants = setting::nearest;  // a last carry overflows to infinity
 
-  const i quiet = n::all(n::quiet_word), smallest = n::all(n::unit_word);
-  i magnitude, kept, low, half, shift, one, left, random_mask, top_bit, scale, inverse;
+  const i quiet = n::all(n::quiet_word);
+  i kept, low, half, shift, one, left, random_mask, top_bit, scale, inverse;
   f magic, splitter, below_all, minus_zero;
 
   [[gnu::always_inline]] explicit shared_exponent_value(const plan& p) {
@@ -32,7 +32,6 @@ struct shared_exponent_value : value_numbers<V> {
     left = n::all(static_cast<word>(n::lane_bits - s));
     random_mask = n::all(p.random_bits < s ? ~(n::ones >> p.random_bits) : n::ones);
     magic = V::add(n::power(s), n::power(s - 1));
-    magnitude = n::all(sizeof(word) == 4 ? p.single.magnitude : p.wide.magnitude);
     if constexpr (Wider) {
       top_bit = n::all(n::unit_word << (V::exponent_bits - 1));
       scale = V::bits(n::power(n::lane_bias / 2 + 1));
@@ -48,37 +47,29 @@ struct shared_exponent_value : value_numbers<V> {
 
  private:
   [[gnu::always_inline]] i round(i x, i random) const {
-    if constexpr (Wider && D == rounding::nearest_even && !V::has_exponents) {
-      return split(x);
+    if constexpr (!Wider) {
+      return V::select(V::nan(V::value(x)), V::and_(V::or_(x, quiet), kept), V::and_(added(x, x, random), kept));
+    } else if constexpr (D == rounding::nearest_even && V::has_exponents) {
+      // Of a significand from 1 to 2 the format's last bit has one place.
+      const f rounded = V::sub(V::add(V::significand(V::value(x)), magic), magic);
+      const i v = V::bits(V::scale(rounded, V::exponent(V::value(x))));
+      return V::select(V::nan(V::value(x)), V::and_(V::or_(x, quiet), kept), v);
     } else {
-      const m is_nan = V::nan(V::value(x));
-      const i nan = V::and_(V::or_(x, quiet), kept);
-      if constexpr (!Wider) {
-        return V::select(is_nan, nan, V::and_(added(x, x, random), kept));
-      } else if constexpr (D == rounding::nearest_even) {
-        // Of a significand from 1 to 2 the format's last bit has one place.
-        const f rounded = V::sub(V::add(V::significand(V::value(x)), magic), magic);
-        return V::select(is_nan, nan, V::bits(V::scale(rounded, V::exponent(V::value(x)))));
-      } else {
-        // Integers become normal numbers and back.
-        const i a = V::and_(x, magnitude);
-        const m tiny = V::igt(smallest, a);
-        const i u = V::select(tiny, V::bits(V::to_float(a)), a);
-        i v = V::and_(added(u, x, random), kept);
-        v = V::select(tiny, V::to_int(V::value(v)), v);
-        return V::select(is_nan, nan, V::or_(v, V::xor_(x, a)));
-      }
+      // x times 2^64 below 2 in magnitude, else times 2^-64, is neither subnormal nor too large to be split.
+      const i k = V::xor_(V::and_(x, top_bit), scale);
+      const f y = product(V::value(x), V::value(k));
+      i v = V::bits(y);
+      if constexpr (D == rounding::nearest_even) v = split(y);
+      else v = V::select(V::nan(y), v, added(v, v, random));
+      return V::bits(product(V::value(V::and_(v, kept)), V::value(V::isub(inverse, k))));
     }
   }
 
-  /// To nearest even by Veltkamp's splitting [Dekker71], c = fl((2^s + 1) y), c - fl(c - y), of y = x times 2^64 below 2
-  /// in magnitude, else times 2^-64: neither too large for the product nor subnormal. c - y is NaN for infinities and
-  /// NaNs alone; any finite number in its place gives the former back, and the latter are in c already.
-  [[gnu::always_inline]] i split(i x) const {
-    const i k = V::xor_(V::and_(x, top_bit), scale);
-    const f y = product(V::value(x), V::value(k)), c = V::mul(y, splitter);
-    const f v = V::sub(c, V::max(V::sub(c, y), below_all));
-    return V::bits(product(V::value(V::and_(V::bits(v), kept)), V::value(V::isub(inverse, k))));
+  /// To nearest even by Veltkamp's splitting [Dekker71], c = fl((2^s + 1) y), c - fl(c - y). c - y is NaN for infinities
+  /// and NaNs alone; any finite number in its place gives the former back, and the latter are in c already.
+  [[gnu::always_inline]] i split(f y) const {
+    const f c = V::mul(y, splitter);
+    return V::bits(V::sub(c, V::max(V::sub(c, y), below_all)));
   }
   /// Plain multiplication stalls where subnormal numbers are among normal ones (AMD family 26); the fused one does not.
   [[gnu::always_inline]] f product(f a, f b) const {
