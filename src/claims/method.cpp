@@ -15,6 +15,10 @@ double one_frame(lloyd_relaxation& splits, const lloyd_samples& field) {
   return splits.step(field);
 }
 
+number clamped_warp(const number& x, const interval& layer) {
+  return bitshade::warp(x, layer, layer_warp::clamped);
+}
+
 cell run(const frame& scene, const configuration& how, int threads) {
   return run_pipeline(scene, how, make_plan(scene, how, threads), threads);
 }
@@ -23,7 +27,7 @@ cell run(const frame& scene, const configuration& how, int threads) {
 
 method library_method() {
   return {mean_of,
-          bitshade::warp<number>,
+          clamped_warp,
           mean_and_variance<number>,
           bitshade::chebyshev<number>,
           layer_floor<number>,
