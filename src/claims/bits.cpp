@@ -1,4 +1,5 @@
 // C12 and C13: how many bits layers save, and whether 16 are enough.
+#include <algorithm>
 #include <cmath>
 
 #include "claims/footprint.hpp"
@@ -9,6 +10,10 @@
 
 namespace bitshade::claims {
 namespace {
+
+/// Texels tried for each side of a footprint, whatever the run's effort: fewer would find fewer
+/// bits.
+constexpr int search_tries = 800;
 
 /// The widest of N layers as the method makes them.
 interval widest_layer(const method& m, int layers, double overlap) {
@@ -32,8 +37,7 @@ std::vector<bit_search::needed_bits> curve_of(const laboratory& lab, double over
     precision_question q;
     q.floor_deviation = effective_deviation(lab.under_test(), layers, overlap, 0.01);
     q.roundings = roundings;
-    curve.push_back(
-        bit_search::bits_needed(q, layers, overlap, false, static_cast<int>(lab.tries(800))));
+    curve.push_back(bit_search::bits_needed(q, layers, overlap, false, search_tries));
   }
   return curve;
 }
@@ -44,6 +48,28 @@ bool falls(const std::vector<bit_search::needed_bits>& curve) {
   for (std::size_t i = 1; i < curve.size(); ++i)
     if (!(curve[i].found < curve[i - 1].found)) return false;
   return true;
+}
+
+/// How far from -2 the slope of a curve without overlap may be.
+///
+/// Every point lies between what adversaries reach at least (bit_search::reachable_bits less
+/// missed_bits) and the whole bound: the steepest and the flattest line within that.
+double slope_deviation(const std::vector<bit_search::needed_bits>& curve) {
+  double middle = 0, most = 0;
+  for (const auto& point : curve) middle += std::log2(point.layers);
+  middle /= static_cast<double>(curve.size());
+  for (const bool steep : {false, true}) {
+    auto extreme = curve;
+    for (auto& point : extreme) {
+      const double least =
+          bit_search::reachable_bits(point) - bit_search::missed_bits(point.question);
+      const bool early = std::log2(point.layers) < middle;
+      point.found = early == steep ? point.predicted : least;
+    }
+    const auto line = bit_search::line_through(extreme, &bit_search::needed_bits::found);
+    most = std::max(most, std::fabs(line.slope + 2));
+  }
+  return most;
 }
 
 outcome measure_less(laboratory& lab) {
@@ -70,7 +96,7 @@ outcome measure_less(laboratory& lab) {
     out.claim(std::string(name) + ": every doubling of N needs fewer bits", falls(curve));
     if (overlap == 0)
       out.limit(std::string(name) + ": distance of that slope from -2", std::fabs(line.slope + 2),
-                0.25);
+                slope_deviation(curve));
   }
   out.remarks.push_back(
       "Bits are those of a unorm, with fractions, below which a footprint was found that errs by "
@@ -93,7 +119,7 @@ int layers_needed(const laboratory& lab, double deviation, double eps, int round
     q.roundings = roundings;
     q.floor = static_cast<double>(
         m.floor(deviation * deviation, widest_layer(m, layers, std::min(0.5, overlap))));
-    q.tries = static_cast<int>(lab.tries(800));
+    q.tries = search_tries;
     if (bit_search::worst_footprint(q).error.size() <= eps) return layers;
     if (layers >= 16) layers += 7;  // a coarser step: the answer is many
   }
@@ -146,7 +172,7 @@ claim less_precision_claim() {
           "adversarial footprints and judged in exact arithmetic, against N, the overlap and the "
           "number of roundings.",
           measure_less,
-          nullptr};
+          {}};
 }
 
 claim sixteen_bits_claim() {
@@ -156,7 +182,7 @@ claim sixteen_bits_claim() {
           "The smallest N with which no adversarial footprint errs by more than what is tolerated "
           "in unorm16, for several floors, tolerances and numbers of roundings.",
           measure_enough,
-          nullptr};
+          {}};
 }
 
 }  // namespace bitshade::claims

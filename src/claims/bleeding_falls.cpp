@@ -31,7 +31,8 @@ evaluation evaluate(const method& m, const sample& s) {
           {{"visibility", p}, {"equation (4)", predicted}, {"(dx/dy)^2 / 4", limit}}};
 }
 
-const trial falls{{{"dx"}, {"dy"}, {"nearer", quantity::whole}, {"farther", quantity::whole}},
+const trial falls{"the light behind two occluders is (4) and at most (dx/dy)^2 / 4",
+                  {{"dx"}, {"dy"}, {"nearer", quantity::whole}, {"farther", quantity::whole}},
                   evaluate};
 
 /// p half and half at dy = ratio dx.
@@ -83,7 +84,7 @@ claim bleeding_falls_claim() {
           "Visibility behind two depths against (4) and against (dx/dy)^2 / 4; its local exponent "
           "from differences of exact values, up to dy = 1000 dx.",
           measure,
-          &falls};
+          {&falls}};
 }
 
 }  // namespace bitshade::claims

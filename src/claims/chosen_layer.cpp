@@ -35,7 +35,8 @@ evaluation as_good_as_vsm(const method& m, const sample& s) {
            {"share lit", share_lit(x, s["t"])}}};
 }
 
-const trial beside_vsm{{{"x", quantity::share, 1, 6},
+const trial beside_vsm{"the chosen layer gives no more light than a VSM",
+                       {{"x", quantity::share, 1, 6},
                         {"t"},
                         {"splits", quantity::grid, 1, 3},
                         {"floor", quantity::grid}},
@@ -94,7 +95,8 @@ evaluation one_suffices(const method& m, const sample& s) {
            {"least of the farther layers", farther}}};
 }
 
-const trial beside_others{{{"x", quantity::share, 1, 6},
+const trial beside_others{"the own layer is the darkest, and farther ones give full light",
+                          {{"x", quantity::share, 1, 6},
                            {"t"},
                            {"splits", quantity::grid, 1, 3},
                            {"overlap", quantity::grid},
@@ -136,7 +138,7 @@ claim chosen_layer_claim() {
           "Random footprints, receivers and splits: visibility in the chosen layer against the "
           "VSM's, exactly, each with its floor.",
           measure_chosen,
-          &beside_vsm};
+          {&beside_vsm}};
 }
 
 claim one_sample_claim() {
@@ -147,7 +149,7 @@ claim one_sample_claim() {
           "All layers evaluated for random footprints, with and without overlaps, receivers on "
           "splits included.",
           measure_one_sample,
-          &beside_others};
+          {&beside_others}};
 }
 
 }  // namespace bitshade::claims

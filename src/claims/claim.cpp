@@ -1,9 +1,11 @@
 #include "claims/claim.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "io/error.hpp"
+#include "io/nearest.hpp"
 
 namespace bitshade::claims {
 
@@ -60,13 +62,36 @@ std::vector<claim> claims_named(const std::vector<std::string>& ids) {
   for (const std::string& id : ids) {
     const bool known =
         std::any_of(all.begin(), all.end(), [&](const claim& c) { return id == c.id; });
-    if (!known)
-      throw usage_error("there is no claim '" + id + "': known are " + all.front().id + " to " +
-                        all.back().id);
+    if (known) continue;
+    std::vector<std::string_view> names;
+    for (const claim& c : all) names.push_back(c.id);
+    const std::string_view meant = nearest(id, names);
+    throw usage_error("there is no claim '" + id + "': known are " + all.front().id + " to " +
+                      all.back().id +
+                      (meant.empty() ? "" : "; did you mean '" + std::string(meant) + "'?"));
   }
   for (const claim& c : all)
     if (ids.empty() || std::find(ids.begin(), ids.end(), c.id) != ids.end()) chosen.push_back(c);
   return chosen;
+}
+
+std::vector<replayed_case> replay(const claim& c, const method& m, std::string_view numbers) {
+  if (c.trials.empty())
+    throw usage_error(std::string("claim ") + c.id +
+                      " is measured on pictures or times and has no single case to replay");
+  std::vector<replayed_case> all;
+  std::optional<usage_error> first;
+  for (const trial* t : c.trials) {
+    try {
+      sample given = parse_sample(t->names, numbers);
+      evaluation found = t->evaluate(m, given);
+      all.push_back({t, std::move(given), std::move(found)});
+    } catch (const usage_error& e) {
+      if (!first) first = e;
+    }
+  }
+  if (all.empty()) throw *first;
+  return all;
 }
 
 }  // namespace bitshade::claims

@@ -82,7 +82,7 @@ struct claim {
   const char* source;      ///< by whom: a key of docs/bibliography.md
   const char* experiment;  ///< what is done about it
   outcome (*measure)(laboratory&);
-  const trial* replayed = nullptr;  ///< evaluates what --replay brings
+  std::vector<const trial*> trials = {};  ///< what --replay may bring a case of
 };
 
 /// All claims, C1 to C29.
@@ -91,5 +91,16 @@ const std::vector<claim>& all_claims();
 ///
 /// Failure  usage_error that names the ids there are.
 std::vector<claim> claims_named(const std::vector<std::string>& ids);
+
+/// A case that was given back, under one of the statements that it is a case of.
+struct replayed_case {
+  const trial* statement;
+  sample given;
+  evaluation found;
+};
+/// Evaluates a case as --replay names it under every statement of a claim that has such cases.
+///
+/// Failure  usage_error where the claim has no single cases, or none of that kind.
+std::vector<replayed_case> replay(const claim& c, const method& m, std::string_view numbers);
 
 }  // namespace bitshade::claims

@@ -55,6 +55,7 @@ evaluation larger_is_darker(const method& m, const sample& s) {
 }
 
 const trial larger_exponent{
+    "a larger c gives no more light",
     {{"x", quantity::share, 2, 4}, {"t"}, {"c", quantity::whole}, {"larger", quantity::whole}},
     larger_is_darker};
 
@@ -149,7 +150,7 @@ claim exponential_claim() {
       "Both bounds of random footprints with random exponents, everything exact but e^x; "
       "overflow and noise limits of c; errors and times on two scenes.",
       measure,
-      &larger_exponent};
+      {&larger_exponent}};
 }
 
 }  // namespace bitshade::claims

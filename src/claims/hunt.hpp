@@ -25,6 +25,7 @@ struct evaluation {
 
 /// A statement about cases of one shape.
 struct trial {
+  const char* says;  ///< in words
   shape names;
   evaluation (*evaluate)(const method&, const sample&);
 };

@@ -9,7 +9,7 @@ laboratory::laboratory(method under_test, laboratory_options how)
     : method_(std::move(under_test)), how_(how) {}
 
 long laboratory::tries(long count) const {
-  return std::max(40L, static_cast<long>(static_cast<double>(count) * how_.scale));
+  return std::max(40L, static_cast<long>(static_cast<double>(count) * how_.cases));
 }
 
 hunt_result laboratory::search(const trial& statement, std::uint64_t key, long count,
@@ -18,7 +18,7 @@ hunt_result laboratory::search(const trial& statement, std::uint64_t key, long c
 }
 
 scene_options laboratory::sizes() const {
-  const double side = std::sqrt(std::min(1.0, how_.scale));
+  const double side = std::sqrt(std::min(1.0, how_.pictures));
   const auto scaled = [&](int full) { return std::max(32, static_cast<int>(full * side)); };
   scene_options options;
   options.map_size = scaled(256);

@@ -16,7 +16,8 @@ namespace bitshade::claims {
 /// How a run of claims is set up.
 struct laboratory_options {
   std::uint64_t seed = 1;
-  double scale = 1;  ///< of the number of random cases, and of pictures' areas
+  double cases = 1;     ///< share of the random cases
+  double pictures = 1;  ///< share of the pictures' area: figures, and with them verdicts, change
   int threads = 0;
 };
 
@@ -33,14 +34,14 @@ class laboratory {
   const method& under_test() const { return method_; }
   int threads() const { return how_.threads; }
 
-  /// `count` random cases at full scale, never fewer than 40.
+  /// `count` random cases in a full run, never fewer than 40.
   long tries(long count) const;
   /// An independent stream of random numbers.
   random_stream stream(std::uint64_t key) const { return {how_.seed, key}; }
   hunt_result search(const trial& statement, std::uint64_t key, long count,
                      condition within = nullptr) const;
 
-  /// The sizes of a map and a picture at the laboratory's scale.
+  /// The sizes of a map and a picture.
   scene_options sizes() const;
   /// An embedded scene at the laboratory's size: built once a run.
   const frame& scene(const std::string& name,

@@ -25,7 +25,8 @@ evaluation dark_behind(const method& m, const sample& s) {
       true, p != number(0), p, {{"visibility", p}, {"residue f/(f + d^2)", floor_residue(f, d)}}};
 }
 
-const trial behind_all{{{"x", quantity::share, 1, 5},
+const trial behind_all{"behind occluders in front of its layer a receiver is dark",
+                       {{"x", quantity::share, 1, 5},
                         {"t"},
                         {"near", quantity::grid},
                         {"far", quantity::grid},
@@ -83,6 +84,7 @@ evaluation exact_on_split(const method& m, const sample& s) {
 }
 
 const trial on_split{
+    "on a split the light is the share lit",
     {{"x", quantity::share, 1, 5}, {"splits", quantity::grid, 1, 2}, {"floor", quantity::grid}},
     exact_on_split};
 
@@ -97,7 +99,8 @@ evaluation exact_past_split(const method& m, const sample& s) {
   return {true, p != truth, abs(p - truth), {{"visibility", p}, {"share lit", truth}}};
 }
 
-const trial past_split{on_split.names, exact_past_split};
+const trial past_split{"2^-24 past a split the light is the share lit, without a floor",
+                       on_split.names, exact_past_split};
 
 /// Moves what lies strictly inside the nearer layer (0, s_1) to its near end.
 void none_inside(sample& s) {
@@ -134,7 +137,7 @@ claim above_layer_claim() {
           "Random occluders in front of random layers, random receivers inside: the light that is "
           "left, exactly, with and without the floor (7).",
           measure_above,
-          &behind_all};
+          {&behind_all}};
 }
 
 claim boundary_claim() {
@@ -144,7 +147,7 @@ claim boundary_claim() {
           "Receivers on a split and one step of 2^-24 past it, occluders inside the layer or not: "
           "visibility against the share lit, exactly.",
           measure_boundary,
-          &on_split};
+          {&on_split, &past_split}};
 }
 
 }  // namespace bitshade::claims

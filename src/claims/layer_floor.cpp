@@ -38,7 +38,9 @@ evaluation same_in_world(const method& m, const sample& s) {
 }
 
 const trial consistent{
-    {{"near", quantity::grid}, {"far", quantity::grid}, {"floor", quantity::grid}}, same_in_world};
+    "the floor of a layer is sigma_min^2 in the world",
+    {{"near", quantity::grid}, {"far", quantity::grid}, {"floor", quantity::grid}},
+    same_in_world};
 
 /// The light that is left at the far end of a layer behind one occluder in front of it.
 double left_at_far_end(const method& m, const interval& layer, double floor) {
@@ -97,7 +99,8 @@ evaluation as_a_vsm(const method& m, const sample& s) {
           {{"layer's visibility", layered}, {"VSM's visibility", plain}}};
 }
 
-const trial within{{{"x", quantity::share, 1, 6},
+const trial within{"within a layer the light is that of a VSM",
+                   {{"x", quantity::share, 1, 6},
                     {"t"},
                     {"near", quantity::grid},
                     {"far", quantity::grid},
@@ -150,7 +153,7 @@ claim layer_floor_claim() {
           "The floors of random layers carried back to world units, exactly; then against each "
           "format's quantisation noise, and the light that they leave in thin layers.",
           measure_floor,
-          &consistent};
+          {&consistent}};
 }
 
 claim within_layer_claim() {
@@ -160,7 +163,7 @@ claim within_layer_claim() {
           "All occluders and the receiver inside one random layer: its visibility against the "
           "VSM's, exactly, floors (7) included; then both in each format.",
           measure_within,
-          &within};
+          {&within}};
 }
 
 }  // namespace bitshade::claims

@@ -1,6 +1,7 @@
 #include "claims/method.hpp"
 
 #include "bitshade/shadow/evsm.hpp"
+#include "bitshade/shadow/metric.hpp"
 
 namespace bitshade::claims {
 namespace {
@@ -27,6 +28,7 @@ cell run(const frame& scene, const configuration& how, int threads) {
 
 method library_method() {
   return {mean_of,
+          linear_metric<number>,
           clamped_warp,
           mean_and_variance<number>,
           bitshade::chebyshev<number>,
@@ -38,7 +40,7 @@ method library_method() {
           lloyd_sample_of,
           one_frame,
           evsm_bound<double>,
-          hamburger_bound<double>,
+          hamburger_bound<enclosed>,
           run};
 }
 

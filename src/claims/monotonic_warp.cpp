@@ -34,7 +34,8 @@ evaluation any_warp(const method& m, const sample& s) {
   return bounds_the_truth(p, share_lit(s.list("x"), s["t"]));
 }
 
-const trial with_any_warp{{{"x", quantity::share, 1, 6}, {"t"}, {"warp", quantity::share, 5, 5}},
+const trial with_any_warp{"under a rising warp there is at least as much light as is lit",
+                          {{"x", quantity::share, 1, 6}, {"t"}, {"warp", quantity::share, 5, 5}},
                           any_warp};
 void rising(sample& s) { std::sort(s.list("warp").begin(), s.list("warp").end()); }
 
@@ -46,6 +47,7 @@ evaluation layer_warp(const method& m, const sample& s) {
 }
 
 const trial with_a_layer{
+    "in a layer there is at least as much light as is lit",
     {{"x", quantity::share, 1, 6}, {"t"}, {"near", quantity::grid}, {"far", quantity::grid}},
     layer_warp};
 
@@ -102,7 +104,7 @@ claim monotonic_warp_claim() {
           "Random distributions under random rising warps, flat pieces included, and under the "
           "warps of random layers: visibility against the share lit, exactly; then in formats.",
           measure,
-          &with_a_layer};
+          {&with_a_layer, &with_any_warp}};
 }
 
 }  // namespace bitshade::claims

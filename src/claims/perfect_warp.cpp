@@ -25,7 +25,9 @@ evaluation evaluate(const method& m, const sample& s) {
 }
 
 const trial step_warp{
-    {{"x", quantity::share, 2, 5}, {"c", quantity::grid}, {"floor", quantity::grid}}, evaluate};
+    "C gets no light and B all of it",
+    {{"x", quantity::share, 2, 5}, {"c", quantity::grid}, {"floor", quantity::grid}},
+    evaluate};
 
 void occluders_in_front(sample& s) {
   const number limit = std::max(number(0), number(s.real("c") - split_grid));
@@ -73,7 +75,7 @@ claim perfect_warp_claim() {
       "The step as a layer of width 2^-24 that ends at C, random occluders in front; with and "
       "without the floor that (7) gives such a layer.",
       measure,
-      &step_warp};
+      {&step_warp}};
 }
 
 }  // namespace bitshade::claims

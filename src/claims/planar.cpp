@@ -24,7 +24,8 @@ evaluation evaluate(const method& m, const sample& s) {
   return {true, p != truth, abs(p - truth), {{"visibility", p}, {"share lit", truth}}};
 }
 
-const trial exact_behind_a_plane{{{"a"},
+const trial exact_behind_a_plane{"the light is the share lit",
+                                 {{"a"},
                                   {"t"},
                                   {"covered", quantity::whole},
                                   {"open", quantity::whole},
@@ -87,7 +88,7 @@ claim planar_claim() {
           "visibility against the share of the footprint that is lit, in exact arithmetic, then "
           "with moments stored in formats.",
           measure,
-          &exact_behind_a_plane};
+          {&exact_behind_a_plane}};
 }
 
 }  // namespace bitshade::claims

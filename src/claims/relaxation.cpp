@@ -157,7 +157,7 @@ claim convergence_claim() {
           "Six scenes from uniform splits: frames until the cost is within 1 % of where all splits "
           "at once come to rest; and a moving garden.",
           measure_convergence,
-          nullptr};
+          {}};
 }
 
 claim teleportation_claim() {
@@ -167,7 +167,7 @@ claim teleportation_claim() {
           "Many starts with all splits bunched in a tenth of the range, relaxed with and without "
           "teleportation, against the optimum by dynamic programming; and more splits than peaks.",
           measure_teleportation,
-          nullptr};
+          {}};
 }
 
 }  // namespace bitshade::claims

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "claims/claim.hpp"
 
@@ -18,7 +19,7 @@ struct claim_report {
 
 /// What heads a page: how to get it again.
 struct report_origin {
-  std::string command, version, machine;
+  std::string command, version, machine, seed;
 };
 
 /// "holds if no floor acts": the verdict and what it hangs on, as one sentence.
@@ -28,13 +29,24 @@ std::string verdict_sentence(const outcome& found);
 std::string text_of(const claim_report& r);
 /// A line a claim.
 std::string summary_text(std::span<const claim_report> all);
-/// A page in Markdown: first where the sources are right, where they need a condition, where they
-/// err; then every claim with its figures.
+/// The run in a few sentences: verdicts in all and by source, bounds kept, counterexamples shrunk.
+std::vector<std::string> summary_sentences(std::span<const claim_report> all);
+/// What a verdict says of the sources: "Where the sources are right". In the order of pages.
+struct verdict_heading {
+  verdict found;
+  const char* title;
+  const char* words;  ///< what the verdict means
+};
+std::span<const verdict_heading> verdict_headings();
+/// A page in Markdown: a summary in words, where the sources are right, where they need a
+/// condition, where they err; then every claim with its figures.
 std::string markdown_of(std::span<const claim_report> all, const report_origin& origin);
+/// The same as the body of a page for a browser (report/html.hpp).
+std::string html_of(std::span<const claim_report> all);
 nlohmann::ordered_json json_of(std::span<const claim_report> all, const report_origin& origin);
 
-/// The numbers of a case that was given back.
-std::string text_of(const sample& given, const evaluation& e);
-nlohmann::ordered_json json_of(const sample& given, const evaluation& e);
+/// What a case that was given back shows, statement by statement.
+std::string text_of(std::span<const replayed_case> all);
+nlohmann::ordered_json json_of(std::span<const replayed_case> all);
 
 }  // namespace bitshade::claims

@@ -37,7 +37,7 @@ std::string named_numbers(const std::vector<named_number>& numbers, std::size_t 
 
 /// A name and a value: names wrap, values stand in one column.
 std::string table_line(const std::string& name, const std::string& value) {
-  constexpr std::size_t right = 18, left = page - margin - right - 1;
+  constexpr std::size_t right = 24, left = page - margin - right - 1;
   std::string out;
   const auto lines = wrap(name, left);
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -136,11 +136,16 @@ std::string summary_text(std::span<const claim_report> all) {
   return out + '\n';
 }
 
-std::string text_of(const sample& given, const evaluation& e) {
-  std::string out = text_of(given) + '\n' + named_numbers(e.numbers, 2);
-  if (!e.admissible) return out + "The claim does not speak of this case.\n";
-  return out + (e.refutes ? "This case refutes the claim as it stands.\n"
-                          : "This case agrees with the claim.\n");
+std::string text_of(std::span<const replayed_case> all) {
+  std::string out;
+  for (const auto& [statement, given, found] : all) {
+    out += (out.empty() ? text_of(given) + "\n\n" : "\n") + indented(statement->says, 0);
+    out += named_numbers(found.numbers, 2);
+    out += !found.admissible ? "  This case is none that the statement speaks of.\n"
+           : found.refutes   ? "  Refuted by this case.\n"
+                             : "  This case agrees.\n";
+  }
+  return out;
 }
 
 }  // namespace bitshade::claims

@@ -37,7 +37,9 @@ evaluation recovers(const method& m, const sample& s) {
 }
 
 const trial second_is_found{
-    {{"a"}, {"b"}, {"nearer", quantity::whole}, {"farther", quantity::whole}}, recovers};
+    "mu + sigma is the farther occluder, to 1/255",
+    {{"a"}, {"b"}, {"nearer", quantity::whole}, {"farther", quantity::whole}},
+    recovers};
 
 void half_and_half(sample& s) { s.list("farther") = s.list("nearer"); }
 
@@ -101,7 +103,8 @@ evaluation reduces(const method& m, const sample& s) {
           {{"bleeding with the split", layered}, {"bleeding of a VSM", plain}}};
 }
 
-const trial split_between{{{"a"},
+const trial split_between{"a split between the occluders lowers the bleeding",
+                          {{"a"},
                            {"b"},
                            {"t"},
                            {"split", quantity::grid},
@@ -153,7 +156,7 @@ claim second_occluder_claim() {
       "mu + sigma of random pairs of occluders with random coverage against the farther one; of "
       "3 to 6 random depths, and what a split there does.",
       measure_recovered,
-      &second_is_found};
+      {&second_is_found}};
 }
 
 claim split_between_claim() {
@@ -163,7 +166,7 @@ claim split_between_claim() {
           "Random pairs of occluders, receivers behind both, splits between them: the chosen "
           "layer's bleeding against the VSM's, exactly.",
           measure_split,
-          &split_between};
+          {&split_between}};
 }
 
 }  // namespace bitshade::claims

@@ -22,7 +22,9 @@ evaluation keeps_penumbrae(const method& m, const sample& s) {
           {{"visibility", p}, {"reduced", reduced}, {"share lit", truth}}};
 }
 
-const trial penumbra{{{"x", quantity::share, 1, 5}, {"t"}, {"alpha"}}, keeps_penumbrae};
+const trial penumbra{"reduced light is no less than the share lit",
+                     {{"x", quantity::share, 1, 5}, {"t"}, {"alpha"}},
+                     keeps_penumbrae};
 
 /// Whatever bleeds at most alpha is dark afterwards, and the more is taken the darker it gets.
 evaluation removes_bleeding(const method& m, const sample& s) {
@@ -34,7 +36,8 @@ evaluation removes_bleeding(const method& m, const sample& s) {
   return {true, wrong, reduced, {{"visibility", p}, {"reduced", reduced}}};
 }
 
-const trial removal{penumbra.names, removes_bleeding};
+const trial removal{"light of at most alpha becomes darkness, and none is added", penumbra.names,
+                    removes_bleeding};
 
 /// Mean error of receivers in a penumbra: whose truth is neither dark nor lit.
 double penumbra_error(const std::vector<double>& got, const std::vector<double>& truth) {
@@ -104,7 +107,7 @@ claim summed_area_claim() {
       "Native times of three box sizes; random footprints reduced by random alpha, exactly; "
       "bleeding area and penumbrae on beams against alpha.",
       measure,
-      &penumbra};
+      {&penumbra, &removal}};
 }
 
 }  // namespace bitshade::claims

@@ -193,7 +193,7 @@ outcome measure_blurs(laboratory& lab) {
   if (!as_published)
     out.undecidable =
         "the published times are a GPU's, on which e^x is an instruction and a bilinear fetch is "
-        "free; on this processor the ratios are those above";
+        "free; on this processor the ratios measured are others";
   out.remarks.push_back(
       "Linear sampling saves fetches where hardware filters; in software a bilinear fetch costs "
       "more than the taps that it saves.");
@@ -211,7 +211,7 @@ claim layer_cost_claim() {
       "Native times on one thread, every configuration in turn, the least of fifteen: the scene "
       "slope with 1 to 8 layers, cities of 1,000 and 100,000 triangles.",
       measure_layers,
-      nullptr};
+      {}};
 }
 
 claim blur_cost_claim() {
@@ -223,7 +223,7 @@ claim blur_cost_claim() {
       "Native times on one thread on the garden, every configuration in turn, the least of "
       "fifteen; blurs of its moments; what weight fractions of 8 bits do to them.",
       measure_blurs,
-      nullptr};
+      {}};
 }
 
 }  // namespace bitshade::claims

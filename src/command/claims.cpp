@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "io/build.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
+#include "report/html.hpp"
 #include "run/progress.hpp"
 
 namespace bitshade::command {
@@ -21,43 +23,55 @@ namespace {
 
 using namespace claims;
 
-/// The scale of --quick: fewer random cases, smaller pictures.
-constexpr double quick_scale = 0.1;
+/// What --quick leaves of the random cases. Pictures stay: their verdicts must not change.
+constexpr double quick_cases = 0.1;
 
 struct options {
   std::vector<std::string> ids;
   std::uint64_t seed = 1;
   int threads = 0;
   bool quick = false, json = false;
-  std::string replay, markdown;
+  std::string replay, out;
 };
 
 void replay(const options& given, const std::vector<claim>& chosen) {
   if (given.ids.size() != 1)
     throw usage_error("--replay evaluates a case of one claim: name it, as in claims C5 --replay");
-  const claim& c = chosen.front();
-  if (c.replayed == nullptr)
-    throw usage_error(std::string("claim ") + c.id +
-                      " is measured on pictures or times and has no single case to replay");
-  const sample s = parse_sample(c.replayed->names, given.replay);
-  const evaluation e = c.replayed->evaluate(library_method(), s);
+  const auto all = claims::replay(chosen.front(), library_method(), given.replay);
   if (given.json)
-    std::cout << json_of(s, e).dump(1) << '\n';
+    std::cout << json_of(all).dump(1) << '\n';
   else
-    std::cout << text_of(s, e);
+    std::cout << text_of(all);
+}
+
+void write_pages(const std::filesystem::path& folder, std::span<const claim_report> all,
+                 const report_origin& origin) {
+  const report_head head{origin.command,
+                         origin.version,
+                         compiler_description(),
+                         origin.machine,
+                         origin.seed,
+                         "What the sources of layered variance shadow maps claim, and what is so.",
+                         "claims.json beside this page"};
+  write_file(folder / "claims.md", markdown_of(all, origin));
+  write_file(folder / "claims.json", json_of(all, origin).dump(1) + "\n");
+  write_file(folder / "claims.html",
+             html_page(head, "The claims of the sources, put to the test", html_of(all)));
 }
 
 void run_claims(const options& given) {
   const std::vector<claim> chosen = claims_named(given.ids);
   if (!given.replay.empty()) return replay(given, chosen);
 
-  laboratory lab(library_method(), {given.seed, given.quick ? quick_scale : 1, given.threads});
+  laboratory lab(library_method(), {given.seed, given.quick ? quick_cases : 1, 1, given.threads});
   std::string command = "bitshade claims";
   for (const std::string& id : given.ids) command += " " + id;
   if (given.seed != 1) command += " --seed " + std::to_string(given.seed);
   if (given.quick) command += " --quick";
-  const report_origin origin{command, program_version(), machine_description()};
+  const report_origin origin{command, program_version(), machine_description(),
+                             std::to_string(given.seed)};
 
+  if (!given.out.empty()) make_output_folder(given.out);
   std::vector<claim_report> all;
   progress bar;
   bar.begin(chosen.size());
@@ -74,11 +88,14 @@ void run_claims(const options& given) {
     }
   }
   bar.end();
-  if (!given.markdown.empty()) write_file(given.markdown, markdown_of(all, origin));
+  if (!given.out.empty()) write_pages(given.out, all, origin);
   if (given.json)
     std::cout << json_of(all, origin).dump(1) << '\n';
   else
     std::cout << summary_text(all) << "* a time or a ratio of times: differs from run to run\n";
+  if (!given.out.empty() && !given.json)
+    std::cout << "The page is " << (std::filesystem::path(given.out) / "claims.html").string()
+              << "; claims.md and claims.json lie beside it.\n";
 }
 
 }  // namespace
@@ -106,9 +123,9 @@ void add_claims(CLI::App& app) {
       ->capture_default_str()
       ->check(CLI::Range(0, 4096))
       ->option_text("N");
-  command->add_flag("--quick", given->quick, "A tenth of the cases and of the pictures' pixels");
-  command->add_option("--markdown", given->markdown, "Also write all of it as a page")
-      ->option_text("FILE");
+  command->add_flag("--quick", given->quick, "A tenth of the random cases; pictures as ever");
+  command->add_option("--out", given->out, "Folder for claims.html, claims.md and claims.json")
+      ->option_text("DIR");
   command->add_flag("--json", given->json, "Print JSON instead of text");
   command->footer(
       "Examples:\n"

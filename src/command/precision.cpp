@@ -215,8 +215,9 @@ void answer(const options& given) {
     found.chart = bit_search::joint_chart(found.joint);
   }
   if (!given.out.empty()) {
-    const report_head head{command, program_version(), compiler_description(),
-                           machine_description(), std::to_string(given.how->seed)};
+    report_head head{command, program_version(), compiler_description(), machine_description(),
+                     std::to_string(given.how->seed)};
+    head.files = "precision.csv and precision.json beside this page";
     std::string body;
     for (const report_part& part : precision_parts(found, command)) {
       body += "<h2>" + part.title + "</h2><p>" + part.text + "</p>" + part.body;

@@ -97,6 +97,16 @@ needed_bits bits_needed(precision_question question, int layers, double overlap,
   return r;
 }
 
+double missed_bits(const precision_question& question) {
+  return -std::log2(question.roundings == 1 ? reached_once : reached_repeatedly);
+}
+
+double reachable_bits(const needed_bits& p) {
+  precision_question q = p.question;
+  q.mean = 1 - std::sqrt(layer_floor_variance(q));
+  return std::log2(steps_needed(q) + (p.floating ? 0 : 1));
+}
+
 fitted_line line_through(std::span<const needed_bits> curve, double needed_bits::*what) {
   fitted_line line;
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -142,11 +152,17 @@ std::vector<std::string> deviations(std::span<const needed_bits> curve) {
   const auto mean_of = [](const needed_bits& p) {
     return 1 - std::sqrt(layer_floor_variance(p.question));
   };
-  const auto lost = [&](const needed_bits& p) { return -std::log2((1 + 2 * mean_of(p)) / 3); };
+  const auto lost = [](const needed_bits& p) { return p.variance_share - reachable_bits(p); };
   said.push_back(
       "The receiver has to fit behind the mean, so that no mean comes nearer to 1 than " +
       n(mean_of(first)) + " at first and " + n(mean_of(last)) + " at last: that alone saves " +
       n(lost(last) - lost(first)) + " bits.");
+  const auto missed = [](const needed_bits& p) { return reachable_bits(p) - p.found; };
+  said.push_back(
+      "Of what is left the search misses " + n(missed(first)) + " bits at first and " +
+      n(missed(last)) + " at last: coarser grids offer fewer bad codes. Footprints reach " +
+      n(100 * std::exp2(-missed_bits(last.question))) + " % of the variance's bound at least, " +
+      n(missed_bits(last.question)) + " bits.");
   return said;
 }
 

@@ -34,6 +34,15 @@ struct needed_bits {
 needed_bits bits_needed(precision_question question, int layers, double overlap,
                         bool floating = false, int tries = 4000);
 
+/// The share of the bound's variance term that adversarial footprints reach at least, means being
+/// what they can be: with one rounding, and with several (tests/property/precision/bits.cpp).
+inline constexpr double reached_once = 0.92, reached_repeatedly = 0.8;
+/// The same in bits: how far below its law a curve of bits found may lie.
+double missed_bits(const precision_question& question);
+/// Bits that the bound's variance term asks for where a receiver one deviation behind the mean has
+/// to fit in, so that no mean comes nearer to 1 than 1 - sigma_min / w.
+double reachable_bits(const needed_bits& point);
+
 /// Bits against log2 of the layers: b = at_one + slope log2 N, by least squares.
 struct fitted_line {
   double slope = 0;

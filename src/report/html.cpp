@@ -175,8 +175,7 @@ std::string html_page(const report_head& head, const std::string& title, const s
          "<link rel=\"icon\" href=\"data:,\">\n<title>" +
          escaped(title) + "</title>\n<style>" + std::string(page_style()) +
          "</style></head>\n<body>\n<header><h1>" + escaped(title) +
-         "</h1>\n<p class=\"soft\">What number formats cost these shadow maps, in error and in "
-         "time."
+         "</h1>\n<p class=\"soft\">" + escaped(head.subject) +
          "</p>\n<code class=\"command\">" +
          escaped(head.command) + "</code>\n</header>\n" + body +
          "<footer><h2>About this report</h2><p>bitshade " + escaped(head.version) +
@@ -186,8 +185,8 @@ std::string html_page(const report_head& head, const std::string& title, const s
                             : " Seed " + escaped(head.seed) +
                                   " for whatever is random in the scenes.") +
          " Everything but the times is the same on every machine, for any number of threads. The "
-         "figures stand in results.csv and results.json beside this page, and in results.sqlite."
-         "</p></footer>\n<script>" +
+         "figures stand in " +
+         escaped(head.files) + ".</p></footer>\n<script>" +
          std::string(page_script()) + "</script>\n</body></html>\n";
 }
 

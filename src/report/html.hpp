@@ -35,6 +35,8 @@ struct report_head {
   std::string compiler;
   std::string machine;
   std::string seed = {};  ///< of whatever is random in the inputs; empty: nothing is known of it
+  std::string subject = "What number formats cost these shadow maps, in error and in time.";
+  std::string files = "results.csv and results.json beside this page, and in results.sqlite";
 };
 
 /// A page of its own around `body`: heading, style, script, and where its figures come from.

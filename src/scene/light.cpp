@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "bitshade/shadow/metric.hpp"
 #include "io/error.hpp"
 #include "io/nearest.hpp"
 #include "io/numbers.hpp"
@@ -205,7 +206,7 @@ double light_projection::metric_of(glm::dvec3 point, const triangle_points& t) c
     case depth_metric::linear:
       break;
   }
-  return (z - near_) / (far_ - near_);
+  return linear_metric(z, near_, far_);
 }
 
 namespace {

@@ -1,8 +1,9 @@
-// C26 and C29: what the range of depths, the metric and the texture filter are worth.
+// C26: what a tight range of depths is worth, and what lies before it.
 #include <algorithm>
 #include <cmath>
 
 #include "bitshade/formats/round_to.hpp"
+#include "bitshade/shadow/moments.hpp"
 #include "bitshade/study/bounds_visibility.hpp"
 #include "claims/footprint.hpp"
 #include "claims/laboratory.hpp"
@@ -11,16 +12,15 @@
 namespace bitshade::claims {
 namespace {
 
-// C26 ---------------------------------------------------------------------------------------------
-
 /// The largest error, in world units, of distances between 500 and 510 stored in [near, far].
 double world_error(const laboratory& lab, const encoding& format, double near, double far) {
   double most = 0;
   random_stream random = lab.stream(2601);
   for (long i = 0; i < lab.tries(20000); ++i) {
-    const double z = random.next(500, 510);
-    const double stored = round_to(format, (z - near) / (far - near));
-    most = std::max(most, std::fabs(near + stored * (far - near) - z));
+    const number z(random.next(500, 510));
+    const number depth = lab.under_test().metric(z, near, far);
+    const number stored(round_to(format, static_cast<double>(depth)));
+    most = std::max(most, static_cast<double>(abs(stored - depth)) * (far - near));
   }
   return most;
 }
@@ -32,10 +32,11 @@ evaluation before_near(const method& m, const sample& s) {
   if (!(layer.near < layer.far) || !(s["d"] < s["near"]) || !(s["t"] > s["near"]) ||
       s["t"] > s["far"])
     return {false};
-  const number width = s["far"] - s["near"], at = (s["d"] - s["near"]) / width;
-  // A texture of [0,1] clamps the first moment to 0 and takes the square of the unclamped depth.
-  const number second = std::min(number(1), at * at);
-  const number p = m.chebyshev(m.variance(0, second), m.warp(s["t"], layer), 0);
+  const auto depth = [&](const number& z) { return m.metric(z, s["near"], s["far"]); };
+  // A texture of [0,1] clamps both moments, each by itself.
+  const number first = clamp_depth(depth(s["d"]));
+  const number second = clamp_depth(depth(s["d"]) * depth(s["d"]));
+  const number p = m.chebyshev(m.variance(first, second), depth(s["t"]), 0);
   const number clamped = light(m, std::vector<number>{s["d"]}, s["t"], layer, 0);
   return {true,
           p != number(0),
@@ -43,8 +44,16 @@ evaluation before_near(const method& m, const sample& s) {
           {{"squared before it is clamped", p}, {"clamped before it is squared", clamped}}};
 }
 
-const trial near_plane{{{"d"}, {"t"}, {"near", quantity::grid}, {"far", quantity::grid}},
+const trial near_plane{"behind a depth in front of the near plane it is dark",
+                       {{"d"}, {"t"}, {"near", quantity::grid}, {"far", quantity::grid}},
                        before_near};
+
+/// Moves a case there: near before far, the occluder before near, the receiver between them.
+void in_front_of_near(sample& s) {
+  if (s["far"] < s["near"]) std::swap(s.list("near").front(), s.list("far").front());
+  if (s["d"] >= s["near"]) s.list("d").front() = s["near"] / number(2);
+  if (s["t"] <= s["near"] || s["t"] > s["far"]) s.list("t").front() = s["far"];
+}
 
 outcome measure_range(laboratory& lab) {
   outcome out;
@@ -93,7 +102,7 @@ outcome measure_range(laboratory& lab) {
   out.claim("binary32 keeps depths and variances to 1e-6", depth <= 1e-6 && variance <= 1e-6);
   out.claim("and visibility without a floor", bare <= 1e-6);
   out.claim("depths before a layer's near plane do no harm, squared before they are clamped",
-            out.none_in(lab.search(near_plane, 2604, 3000), "d < near"));
+            out.none_in(lab.search(near_plane, 2604, 3000, in_front_of_near), "d < near"));
 
   const auto residue = static_cast<double>(
       light(lab.under_test(), std::vector<number>{number(0)}, number(1), whole_range, 0.01));
@@ -110,69 +119,6 @@ outcome measure_range(laboratory& lab) {
   return out;
 }
 
-// C29 ---------------------------------------------------------------------------------------------
-
-outcome measure_sampling(laboratory& lab) {
-  outcome out;
-  bool better = true;
-  for (const char* name : {"garden", "rts", "beams"}) {
-    const frame& scene = lab.scene(name);
-    configuration how;
-    how.blur_taps = 5, how.blur_sigma = 1.25;
-    const auto truth = truth_geometric(scene, how, lab.threads());
-    const auto error = [&](const char* format, texel_filter filter) {
-      how.format = format;
-      how.filter = filter;
-      return compare(lab.under_test().render(scene, how, lab.threads()).visibility, truth).rmse;
-    };
-    const double half = error("half", texel_filter::nearest),
-                 single = error("binary32", texel_filter::nearest),
-                 unorm = error("unorm16", texel_filter::bilinear),
-                 today = error("binary32", texel_filter::bilinear);
-    const std::string head = std::string(name) + ": RMSE, ";
-    out.add(head + "half, nearest texel", half);
-    out.add(head + "binary32, nearest texel", single);
-    out.add(head + "unorm16, bilinear", unorm);
-    out.add(head + "binary32, bilinear", today);
-    better = better && unorm < half && unorm < single;
-  }
-  out.claim("unorm16 filtered is nearer to the truth than floats point-sampled", better);
-
-  bool planar = true, small = true;
-  for (const char* name : {"planes", "city"}) {
-    const auto depths = [&](depth_metric metric) {
-      scene_options options = lab.sizes();
-      options.metric = metric;
-      options.light_position = glm::dvec3(2, 9, 1);
-      return load_input(name, options).depth;
-    };
-    const auto distance = depths(depth_metric::distance), vertex = depths(depth_metric::vertex);
-    double most = 0;
-    for (std::size_t i = 0; i < distance.texels.size(); ++i)
-      most = std::max(most, std::fabs(static_cast<double>(distance.texels[i]) -
-                                      static_cast<double>(vertex.texels[i])));
-    out.add(std::string(name) + ", point light: distance interpolated, largest error of depth",
-            most);
-    small = small && most <= tolerated_error;
-  }
-  // A planar metric is linear over a triangle: interpolating it loses nothing.
-  for_cases({{"z", quantity::share, 3, 3}, {"a"}, {"b"}}, lab.stream(2901), lab.tries(500), nullptr,
-            [&](const sample& s) {
-              const auto& z = s.list("z");
-              const auto metric = [](const number& d) { return d * number(3) - number(1); };
-              const number c = number(1) - s["a"] - s["b"];
-              const number inside = s["a"] * z[0] + s["b"] * z[1] + c * z[2];
-              const number between =
-                  s["a"] * metric(z[0]) + s["b"] * metric(z[1]) + c * metric(z[2]);
-              planar = planar && between == metric(inside);
-            });
-  out.claim("a distance interpolated from the vertices is right to 1/255 of the range", small);
-  out.condition = "the metric is planar; filtering is what tells 16 bits from floats";
-  out.provided("interpolating a planar metric is exact", planar);
-  out.provided("unorm16 filtered is nearer to the truth than floats point-sampled", better);
-  return out;
-}
-
 }  // namespace
 
 claim depth_range_claim() {
@@ -183,18 +129,7 @@ claim depth_range_claim() {
           "The same distances stored over two ranges; errors of depth, variance and visibility in "
           "binary32; occluders before a layer's near plane; the light that the floor leaves.",
           measure_range,
-          &near_plane};
-}
-
-claim sampling_claim() {
-  return {"C29",
-          "Floats can only be point-sampled, so that normalised 16-bit moments look better; a "
-          "distance interpolated from the vertices suffices.",
-          "[Marinescu11]",
-          "Three scenes with a blur of sigma 1.25, nearest and bilinear, against the truth; the "
-          "depths of two scenes under a point light, by vertex and by pixel.",
-          measure_sampling,
-          nullptr};
+          {&near_plane}};
 }
 
 }  // namespace bitshade::claims
