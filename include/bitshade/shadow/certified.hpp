@@ -17,8 +17,9 @@ namespace detail {
 template <std::size_t Limbs>
 ball<Limbs> inverse_series(int x, bool alternating) {
   using number = ball<Limbs>;
-  // Radii know nothing below 2^-1000, however many limbs there are.
-  const double enough = std::ldexp(1.0, -std::min(number::bits, 960) - 20);
+  // Radii know nothing below 2^-1000, however many limbs there are; the least size that
+  // they can report must still end the sum.
+  const double enough = std::ldexp(1.0, -std::min(number::bits + 20, 998));
   number power = number(1) / number(x), sum = power;
   const number square = number(x) * number(x);
   for (int n = 3;; n += 2) {
