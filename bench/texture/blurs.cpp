@@ -21,7 +21,7 @@ image<float> blurred(const image<float>& in, const kernel& w,
 
 }  // namespace
 
-/// Both passes at once: an element is a value of one pass. Limits hold for the best instructions.
+/// Both passes at once: an element is a value of one pass.
 void add_blurs(table& table, int channels) {
   const std::string group = "9 x 9 blur, a pass of 2048^2 x " + std::to_string(channels);
   add_copies(table, group, channels);
@@ -31,7 +31,6 @@ void add_blurs(table& table, int channels) {
   const double elements = 2.0 * static_cast<double>(in->texels.size());
   for (const auto set : {instruction_set::avx512, instruction_set::avx2}) {
     if (!bulk::has(set)) continue;
-    const bool best = set == instruction_set::avx512 || !bulk::has(instruction_set::avx512);
     const std::string name = set == instruction_set::avx512 ? ", AVX-512" : ", AVX2";
     const auto work = [=](int threads) {
       on_threads(threads, size, [&](int first, int last) {
@@ -44,7 +43,7 @@ void add_blurs(table& table, int channels) {
           work(2);
           return difference(*out, blurred(*in, w, [](std::span<float>) {}));
         },
-        32, best ? native_limit : 0);
+        32, native_limit);
     for (const storage& s : storages) {
       const auto codes = std::make_shared<image<std::uint16_t>>(coded(s.code, *in));
       const auto result = make_image<std::uint16_t>(size, size, channels);
@@ -62,7 +61,7 @@ void add_blurs(table& table, int channels) {
             };
             return difference(*result, coded(s.code, blurred(decoded(s.code, *codes), w, store)));
           },
-          16, best ? stored_limit : 0);
+          16, stored_limit);
     }
   }
 }

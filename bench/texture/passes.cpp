@@ -23,8 +23,7 @@ void add_copy_of_image(table& table, const std::string& group, int channels) {
       std::memcpy(to->row(first).data(), from->row(first).data(), n);
     });
   };
-  const std::string bits = std::to_string(8 * sizeof(T));
-  add_both(table, group, "an image of " + bits + " bits copied", from->texels.size(), work);
+  add_both(table, group, copy_of(8 * sizeof(T)), from->texels.size(), work);
 }
 
 }  // namespace
@@ -36,30 +35,28 @@ void on_threads(int threads, int n, const std::function<void(int, int)>& work) {
 }
 
 void add_copies(table& table, const std::string& group, int channels) {
+  add_copy_of_image<float>(table, group, channels);
+  add_copy_of_image<std::uint16_t>(table, group, channels);
   constexpr std::size_t bytes = std::size_t{1} << 27;
   static const auto from = std::make_shared<std::vector<char>>(bytes, 'a'),
                     to = std::make_shared<std::vector<char>>(bytes);
-  const auto work = [](int threads) {
+  add_both(table, group, "copy of 128 MiB", bytes / 4, [](int threads) {
     constexpr int blocks = 128;
     on_threads(threads, blocks, [](int first, int last) {
       const std::size_t block = bytes / blocks, at = static_cast<std::size_t>(first) * block;
       std::memcpy(to->data() + at, from->data() + at,
                   static_cast<std::size_t>(last - first) * block);
     });
-  };
-  add_both(table, group, copy_of(32), bytes / 4, work);
-  add_both(table, group, copy_of(16), bytes / 2, work);
-  add_copy_of_image<float>(table, group, channels);
-  add_copy_of_image<std::uint16_t>(table, group, channels);
+  });
 }
 
 void add_pass(table& table, const std::string& group, const std::string& name, double elements,
               const std::function<void(int)>& work, const std::function<std::string()>& check,
-              int bits, double limit) {
+              std::size_t bits, double limit) {
   const auto n = static_cast<std::size_t>(elements);
   table.add({group, name, n, [=] { work(1); }, check, copy_of(bits), limit, {}});
-  const double wanted = limit == 0 ? 0 : scaling_limit;
-  table.add({group, name + both, n, [=] { work(2); }, check, name, wanted, copy_of(bits) + both});
+  table.add(
+      {group, name + both, n, [=] { work(2); }, check, name, scaling_limit, copy_of(bits) + both});
 }
 
 }  // namespace bench

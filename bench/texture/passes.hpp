@@ -14,19 +14,17 @@ constexpr int size = 2048;
 /// Halves of [0, n) on one or two threads.
 void on_threads(int threads, int n, const std::function<void(int, int)>& work);
 
-/// Copies of memory, of 32-bit and of 16-bit elements, on one core and on two; without a limit the
-/// same for an image of 2048^2, which the caches may hold.
-///
-/// The limit is what memory allows, as [McCalpin95] measures it: arrays several times as large as
-/// the caches.
+/// What limits passes: copies of an image of 2048^2, of 32-bit and of 16-bit texels, on one core
+/// and on two. Caches may hold such an image; to tell, a copy of 128 MiB of 32-bit elements as
+/// well.
 void add_copies(table& table, const std::string& group, int channels);
 
-inline const char* copy_of(int bits) { return bits == 32 ? "copy" : "copy of 16 bits"; }
+inline const char* copy_of(std::size_t bits) { return bits == 32 ? "copy" : "copy of 16 bits"; }
 
 /// `work(threads)` on one core against the copy of elements of so many bits, and its gain by a
 /// second core against the copy's.
 void add_pass(table& table, const std::string& group, const std::string& name, double elements,
               const std::function<void(int)>& work, const std::function<std::string()>& check,
-              int bits, double limit);
+              std::size_t bits, double limit);
 
 }  // namespace bench
