@@ -158,13 +158,7 @@ void add_advise(CLI::App& app) {
       ->option_text("NAME");
   given->cells = add_cell_choice(*command, initial);
   given->job.scene = add_scene_options(*command);
-  command->add_option("--repeats", given->job.request.repeats, "Runs of each, after one to warm up")
-      ->capture_default_str()
-      ->option_text("N");
-  command->add_option("--out", given->out, "Folder for the results")
-      ->capture_default_str()
-      ->option_text("DIR");
-  command->add_flag("--json", given->json, "Print JSON instead of text");
+  add_run_options(*command, given->job, given->out, given->json);
   command->footer(
       "Examples:\n"
       "  bitshade advise garden\n"

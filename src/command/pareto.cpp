@@ -76,13 +76,7 @@ void add_pareto(CLI::App& app) {
                    "format-largest or bleed-area")
       ->capture_default_str()
       ->option_text("NAME");
-  command->add_option("--repeats", given->job.request.repeats, "Runs of each, after one to warm up")
-      ->capture_default_str()
-      ->option_text("N");
-  command->add_option("--out", given->out, "Folder for the results")
-      ->capture_default_str()
-      ->option_text("DIR");
-  command->add_flag("--json", given->json, "Print JSON instead of tables");
+  add_run_options(*command, given->job, given->out, given->json);
   command->footer(
       "Examples:\n"
       "  bitshade pareto garden\n"

@@ -84,14 +84,7 @@ void add_study(CLI::App& app) {
       ->default_str("garden");
   given->cells = add_cell_choice(*command, {});
   given->job.scene = add_scene_options(*command);
-  command->add_option("--out", given->out, "Folder for the results")
-      ->capture_default_str()
-      ->option_text("DIR");
-  command
-      ->add_option("--repeats", given->job.request.repeats,
-                   "Runs of a cell, whose median and quartiles are its times")
-      ->capture_default_str()
-      ->option_text("N");
+  add_run_options(*command, given->job, given->out, given->json);
   command->add_flag("--blame", given->blame,
                     "Also say which stage is guilty of the largest format error");
   command->add_flag("--precision", given->precision,
@@ -100,7 +93,6 @@ void add_study(CLI::App& app) {
                     "Run every effect as well, and demand the same bits");
   command->add_flag("--no-pictures", given->no_pictures,
                     "Figures alone: for grids of thousands of cells");
-  command->add_flag("--json", given->json, "Print JSON instead of tables");
   command->footer(
       "Examples:\n"
       "  bitshade study garden --layers 1,2,4 --formats unorm16,half,binary32,exact\n"

@@ -1,5 +1,7 @@
 #include "command/study_job.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <chrono>
 #include <iostream>
 #include <map>
@@ -111,6 +113,15 @@ void print_end(const study_job& job, const job_result& result) {
     std::cout << ", " << cells - result.computed << " taken from results.sqlite";
   std::cout << ".\nThe report is " << (job.out / "report.html").string()
             << "; pictures, CSV, JSON and the database lie beside it.\n";
+}
+
+void add_run_options(CLI::App& app, study_job& job, std::string& out, bool& json) {
+  app.add_option("--repeats", job.request.repeats,
+                 "Runs of a cell, whose median and quartiles are its times")
+      ->capture_default_str()
+      ->option_text("N");
+  app.add_option("--out", out, "Folder for the results")->capture_default_str()->option_text("DIR");
+  app.add_flag("--json", json, "Print JSON instead of text");
 }
 
 void check_repeats(const study_job& job) {

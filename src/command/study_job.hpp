@@ -32,6 +32,9 @@ struct job_result {
   double seconds = 0;
 };
 
+/// Adds --repeats, --out and --json, which every command that runs cells has.
+void add_run_options(CLI::App& app, study_job& job, std::string& out, bool& json);
+
 /// Loads the inputs, runs the missing cells and commits each at once to OUT/results.sqlite; the
 /// caller writes the results. Nothing is written before all inputs are loaded.
 job_result run_job(const study_job& job);

@@ -19,7 +19,7 @@ namespace bitshade {
 ///   traffic   bytes that a frame reads and writes
 ///   time      of a frame, in frames of a single-layer VSM in binary32
 struct advice_question {
-  std::string measure = "total-rmse";  ///< of measure_names()
+  std::string measure = "total-rmse";  ///< as measured() knows it
   double most_error = 0;
   std::string cost = "bytes";
 };

@@ -13,9 +13,19 @@
 namespace bitshade {
 namespace {
 
-constexpr std::array<std::string_view, 7> names{"total-rmse",  "total-p999",  "total-largest",
-                                                "format-rmse", "format-p999", "format-largest",
-                                                "bleed-area"};
+struct named_measure {
+  std::string_view name;
+  double (*of)(const measures&);
+};
+constexpr std::array<named_measure, 7> named{{
+    {"total-rmse", [](const measures& m) { return m.total.rmse; }},
+    {"total-p999", [](const measures& m) { return m.total.p999; }},
+    {"total-largest", [](const measures& m) { return m.total.largest; }},
+    {"format-rmse", [](const measures& m) { return m.format.rmse; }},
+    {"format-p999", [](const measures& m) { return m.format.p999; }},
+    {"format-largest", [](const measures& m) { return m.format.largest; }},
+    {"bleed-area", [](const measures& m) { return m.bleed_area; }},
+}};
 
 /// "by NAME in time and bytes", or nothing on both fronts.
 std::string beaten(const pareto_front& f, std::size_t i) {
@@ -58,30 +68,14 @@ std::string doubt_of(const pareto_front& f) {
          "again on a quiet machine, or with more --repeats.";
 }
 
-std::span<const std::string_view> measure_names() { return names; }
-
 double measured(const row& r, std::string_view measure) {
-  const auto at = std::find(names.begin(), names.end(), measure);
-  const measures& m = r.figures;
-  switch (at - names.begin()) {
-    case 0:
-      return m.total.rmse;
-    case 1:
-      return m.total.p999;
-    case 2:
-      return m.total.largest;
-    case 3:
-      return m.format.rmse;
-    case 4:
-      return m.format.p999;
-    case 5:
-      return m.format.largest;
-    case 6:
-      return m.bleed_area;
-    default:
-      throw usage_error("--measure: there is no '" + std::string(measure) + "'; " +
-                        suggest(measure, names));
+  std::vector<std::string_view> names;
+  for (const named_measure& m : named) {
+    if (m.name == measure) return m.of(r.figures);
+    names.push_back(m.name);
   }
+  throw usage_error("--measure: there is no '" + std::string(measure) + "'; " +
+                    suggest(measure, names));
 }
 
 std::vector<int> beaten_by(std::span<const std::pair<double, double>> points) {
@@ -119,8 +113,8 @@ pareto_front pareto_of(std::span<const row> rows, const std::string& measure) {
 }
 
 std::string text_pareto(const pareto_front& f) {
-  std::vector<text_line> times{{"configuration", "error", "map", "+-", "shade", "+-", "frame", "+-",
-                                "", "emulation*"}},
+  std::vector<text_line> times{
+      {"configuration", "error", "map", "+-", "shade", "+-", "frame", "+-", "", "emulation*"}},
       counts{{"configuration", "error", "B/texel", "MB/frame", "reads", "passes", ""}};
   std::string beaten_list;
   bool all_natural = true;
@@ -167,7 +161,8 @@ std::string text_pareto(const pareto_front& f) {
   out += paragraph(
       "* What emulating the format costs this program, in the same unit. No device pays it; no "
       "other column holds it.");
-  out += "\nError (" + f.measure + ") against what a GPU feels\n" + text_table(counts, {0, 6}) + '\n';
+  out +=
+      "\nError (" + f.measure + ") against what a GPU feels\n" + text_table(counts, {0, 6}) + '\n';
   out += paragraph(
       "B/texel: all layers and channels. MB/frame: read and written by passes and samples, nothing "
       "cached. reads: filtered reads of up to four channels a sample. passes: that make the map. "

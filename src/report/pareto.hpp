@@ -12,8 +12,7 @@
 
 namespace bitshade {
 
-/// The errors that a front may be drawn of, by the names that the command line knows.
-std::span<const std::string_view> measure_names();
+/// An error that a front may be drawn of, by the name that the command line knows.
 /// Failure  usage_error with the nearest name where there is no such measure.
 double measured(const row& r, std::string_view measure);
 

@@ -7,6 +7,7 @@
 #include "bitshade/texture/mip.hpp"
 #include "run/engines.hpp"
 #include "run/exact_grid.hpp"
+#include "run/lookup.hpp"
 
 namespace bitshade {
 
@@ -27,25 +28,11 @@ namespace detail {
 
 inline void add_level(const run_context& run, std::vector<exact_texel>& to, std::int64_t u,
                       std::int64_t v, int level, std::uint64_t share) {
-  constexpr std::int64_t one = std::int64_t{1} << 24;
   const int width = mip_size(run.scene.depth.width, level);
   const int height = mip_size(run.scene.depth.height, level);
-  std::int64_t x = u * width, y = v * height, fx = 0, fy = 0;
-  if (run.look.filter == texel_filter::bilinear) {
-    x -= one / 2;
-    y -= one / 2;
-    fx = x & (one - 1);
-    fy = y & (one - 1);
-  }
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < 2; ++i) {
-      const auto part =
-          static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
-      if (part == 0) continue;
-      to.push_back({level, wrap(static_cast<int>((x >> 24) + i), width, map_address),
-                    wrap(static_cast<int>((y >> 24) + j), height, map_address), part, share});
-    }
-  }
+  for_fetched(run.look, u, v, width, height, [&](int x, int y, std::uint64_t part) {
+    to.push_back({level, x, y, part, share});
+  });
 }
 
 }  // namespace detail

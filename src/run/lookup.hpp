@@ -37,6 +37,31 @@ struct lookup {
   bool plain() const { return !mips && max_anisotropy == 1; }
 };
 
+/// Calls use(x, y, part) for the texels of one fetch from a level, nearest or bilinear.
+///
+/// Units  u, v in 2^-24 of the map; part, the exact weight, in 2^-48 and never 0.
+template <class Use>
+void for_fetched(const lookup& look, std::int64_t u, std::int64_t v, int width, int height,
+                 Use use) {
+  constexpr std::int64_t one = std::int64_t{1} << 24;
+  std::int64_t x = u * width, y = v * height, fx = 0, fy = 0;
+  if (look.filter == texel_filter::bilinear) {
+    x -= one / 2;
+    y -= one / 2;
+    fx = x & (one - 1);
+    fy = y & (one - 1);
+  }
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      const auto part =
+          static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
+      if (part == 0) continue;
+      use(wrap(static_cast<int>((x >> 24) + i), width, map_address),
+          wrap(static_cast<int>((y >> 24) + j), height, map_address), part);
+    }
+  }
+}
+
 inline lookup lookup_of(const configuration& how, const plan& effects) {
   return {how.filter == texel_filter::nearest ? texel_filter::nearest : texel_filter::bilinear,
           effects.simulates("mips"), effects.simulates("anisotropy") ? how.max_anisotropy : 1,

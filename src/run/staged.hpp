@@ -1,4 +1,4 @@
-// The engine behind run_staged(): buffers are either native or exact, and stages convert them.
+// The engine behind run_staged(): each stage in its arithmetic.
 #pragma once
 
 #include <cmath>
@@ -16,54 +16,11 @@
 #include "run/map_stages.hpp"
 #include "run/parallel.hpp"
 #include "run/shading_arithmetic.hpp"
+#include "run/staged_image.hpp"
 #include "run/stages.hpp"
 #include "run/storage.hpp"
 
 namespace bitshade {
-
-/// What stands for exact arithmetic beside stages in a format.
-using staged_exact = ball<3>;
-
-/// A value for a stage's arithmetic: exact into enclosures, rounded to nearest out of them.
-template <class To, class From>
-To staged_value(const From& x) {
-  if constexpr (std::is_same_v<To, From>) {
-    return x;
-  } else if constexpr (std::is_same_v<From, staged_exact>) {
-    return static_cast<To>(x.nearest());
-  } else {
-    return To(static_cast<double>(x));
-  }
-}
-
-/// A map between two stages.
-template <class T>
-struct staged_image {
-  image<T> native;
-  image<staged_exact> exact;
-  bool in_format = true;
-
-  int width() const { return in_format ? native.width : exact.width; }
-  int height() const { return in_format ? native.height : exact.height; }
-  const image<T>& as_native() {
-    if (!in_format) convert(exact, native), in_format = true;
-    return native;
-  }
-  const image<staged_exact>& as_exact() {
-    if (in_format) convert(native, exact), in_format = false;
-    return exact;
-  }
-
- private:
-  template <class From, class To>
-  static void convert(image<From>& from, image<To>& to) {
-    to = image<To>(from.width, from.height, from.channels);
-    for (std::size_t i = 0; i < from.texels.size(); ++i) {
-      to.texels[i] = staged_value<To>(from.texels[i]);
-    }
-    from = {};
-  }
-};
 
 /// Technique: a template over the number with channels(), begin(layer), fill(depth, y, row, keep),
 /// light(values, t) and, for emulated shading, shading(values, t), the same as plain numbers.

@@ -65,24 +65,9 @@ weighted_texels general_footprint_of(const lookup& look, const receiver& r,
   const auto add_level = [&](std::int64_t u, std::int64_t v, int level, std::uint64_t share) {
     if (share == 0) return;
     const int w = mip_size(width, level), h = mip_size(height, level);
-    std::int64_t x = u * w, y = v * h, fx = 0, fy = 0;
-    constexpr auto one = static_cast<std::int64_t>(one24);
-    if (look.filter == texel_filter::bilinear) {
-      x -= one / 2;
-      y -= one / 2;
-      fx = x & (one - 1);
-      fy = y & (one - 1);
-    }
-    for (int j = 0; j < 2; ++j) {
-      for (int i = 0; i < 2; ++i) {
-        const auto part =
-            static_cast<std::uint64_t>((i == 0 ? one - fx : fx) * (j == 0 ? one - fy : fy));
-        if (part == 0) continue;
-        blocks.push_back({wrap(static_cast<int>((x >> 24) + i), w, map_address),
-                          wrap(static_cast<int>((y >> 24) + j), h, map_address), level,
-                          part * share});
-      }
-    }
+    for_fetched(look, u, v, w, h, [&](int x, int y, std::uint64_t part) {
+      blocks.push_back({x, y, level, part * share});
+    });
   };
   for (const auto& at : probes.offsets) {
     const auto u = static_cast<std::int64_t>(static_cast<double>(r.u) * 0x1p24) +

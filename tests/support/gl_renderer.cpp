@@ -1,10 +1,5 @@
 #include "support/gl_renderer.hpp"
 
-#include <EGL/egl.h>
-#include <EGL/eglext.h>
-#define GL_GLEXT_PROTOTYPES 0
-#include <GL/glcorearb.h>
-#include <dlfcn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,156 +9,11 @@
 #include <stdexcept>
 
 #include "bitshade/texture/mip.hpp"
+#include "support/gl_formats.hpp"
+#include "support/gl_functions.hpp"
 
 namespace bitshade::test {
 namespace {
-
-using bytes = std::vector<unsigned char>;
-
-/// Entry points, looked up at run time: the tests link no graphics library.
-struct gl_functions {
-  PFNEGLGETPROCADDRESSPROC get = nullptr;
-#define BITSHADE_GL(type, name) type name = nullptr;
-#define BITSHADE_GL_ALL                                                  \
-  BITSHADE_GL(PFNGLGENTEXTURESPROC, glGenTextures)                       \
-  BITSHADE_GL(PFNGLBINDTEXTUREPROC, glBindTexture)                       \
-  BITSHADE_GL(PFNGLTEXIMAGE2DPROC, glTexImage2D)                         \
-  BITSHADE_GL(PFNGLTEXPARAMETERIPROC, glTexParameteri)                   \
-  BITSHADE_GL(PFNGLTEXPARAMETERFPROC, glTexParameterf)                   \
-  BITSHADE_GL(PFNGLTEXPARAMETERFVPROC, glTexParameterfv)                 \
-  BITSHADE_GL(PFNGLACTIVETEXTUREPROC, glActiveTexture)                   \
-  BITSHADE_GL(PFNGLPIXELSTOREIPROC, glPixelStorei)                       \
-  BITSHADE_GL(PFNGLGENFRAMEBUFFERSPROC, glGenFramebuffers)               \
-  BITSHADE_GL(PFNGLBINDFRAMEBUFFERPROC, glBindFramebuffer)               \
-  BITSHADE_GL(PFNGLFRAMEBUFFERTEXTURE2DPROC, glFramebufferTexture2D)     \
-  BITSHADE_GL(PFNGLCHECKFRAMEBUFFERSTATUSPROC, glCheckFramebufferStatus) \
-  BITSHADE_GL(PFNGLVIEWPORTPROC, glViewport)                             \
-  BITSHADE_GL(PFNGLGENVERTEXARRAYSPROC, glGenVertexArrays)               \
-  BITSHADE_GL(PFNGLBINDVERTEXARRAYPROC, glBindVertexArray)               \
-  BITSHADE_GL(PFNGLCREATESHADERPROC, glCreateShader)                     \
-  BITSHADE_GL(PFNGLSHADERSOURCEPROC, glShaderSource)                     \
-  BITSHADE_GL(PFNGLCOMPILESHADERPROC, glCompileShader)                   \
-  BITSHADE_GL(PFNGLCREATEPROGRAMPROC, glCreateProgram)                   \
-  BITSHADE_GL(PFNGLATTACHSHADERPROC, glAttachShader)                     \
-  BITSHADE_GL(PFNGLLINKPROGRAMPROC, glLinkProgram)                       \
-  BITSHADE_GL(PFNGLGETPROGRAMIVPROC, glGetProgramiv)                     \
-  BITSHADE_GL(PFNGLUSEPROGRAMPROC, glUseProgram)                         \
-  BITSHADE_GL(PFNGLGETUNIFORMLOCATIONPROC, glGetUniformLocation)         \
-  BITSHADE_GL(PFNGLUNIFORM1IPROC, glUniform1i)                           \
-  BITSHADE_GL(PFNGLDRAWARRAYSPROC, glDrawArrays)                         \
-  BITSHADE_GL(PFNGLREADPIXELSPROC, glReadPixels)                         \
-  BITSHADE_GL(PFNGLGETTEXIMAGEPROC, glGetTexImage)                       \
-  BITSHADE_GL(PFNGLGENERATEMIPMAPPROC, glGenerateMipmap)                 \
-  BITSHADE_GL(PFNGLGETSTRINGPROC, glGetString)                           \
-  BITSHADE_GL(PFNGLGETERRORPROC, glGetError)
-  BITSHADE_GL_ALL
-#undef BITSHADE_GL
-
-  /// Makes a surfaceless context current and looks everything up.
-  gl_functions() {
-    void* egl = dlopen("libEGL.so.1", RTLD_NOW);
-    if (egl == nullptr)
-      throw std::runtime_error(
-          "libEGL.so.1 is missing: install libegl1 libegl-mesa0 libgl1-mesa-dri");
-    const auto find = [&](const char* name) {
-      void* found = dlsym(egl, name);
-      if (found == nullptr) throw std::runtime_error(std::string("EGL lacks ") + name);
-      return found;
-    };
-    const auto as = [](void* p, auto& to) { std::memcpy(&to, &p, sizeof p); };
-    PFNEGLINITIALIZEPROC initialize;
-    PFNEGLBINDAPIPROC bind;
-    PFNEGLCREATECONTEXTPROC create;
-    PFNEGLMAKECURRENTPROC current;
-    as(find("eglGetProcAddress"), get);
-    as(find("eglInitialize"), initialize);
-    as(find("eglBindAPI"), bind);
-    as(find("eglCreateContext"), create);
-    as(find("eglMakeCurrent"), current);
-    const auto display_of =
-        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(get("eglGetPlatformDisplayEXT"));
-    if (display_of == nullptr) throw std::runtime_error("EGL has no platform displays");
-    const EGLDisplay display =
-        display_of(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (!initialize(display, nullptr, nullptr) || !bind(EGL_OPENGL_API))
-      throw std::runtime_error("EGL's surfaceless platform does not start");
-    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
-    const EGLContext context = create(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
-    if (context == EGL_NO_CONTEXT || !current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
-      throw std::runtime_error("no OpenGL 3.3 context");
-#define BITSHADE_GL(type, name) name = reinterpret_cast<type>(get(#name));
-    BITSHADE_GL_ALL
-#undef BITSHADE_GL
-  }
-};
-
-struct gl_format {
-  GLint internal;
-  GLenum layout, type;
-  std::size_t word;  ///< bytes of a word; 0 for packed texels
-};
-
-gl_format describe(const texel_format& format) {
-  static constexpr GLenum layouts[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-  const encoding& e = format.of[0];
-  const auto c = static_cast<std::size_t>(format.channels - 1);
-  if (format == r11g11b10_format())
-    return {GL_R11F_G11F_B10F, GL_RGB, GL_UNSIGNED_INT_10F_11F_11F_REV, 0};
-  const auto pick = [&](GLint a, GLint b, GLint d, GLint f) {
-    const GLint all[] = {a, b, d, f};
-    return all[c];
-  };
-  if (e == unorm_encoding(8))
-    return {pick(GL_R8, GL_RG8, GL_RGB8, GL_RGBA8), layouts[c], GL_UNSIGNED_BYTE, 1};
-  if (e == unorm_encoding(16))
-    return {pick(GL_R16, GL_RG16, GL_RGB16, GL_RGBA16), layouts[c], GL_UNSIGNED_SHORT, 2};
-  if (e == snorm_encoding(16))
-    return {pick(GL_R16_SNORM, GL_RG16_SNORM, GL_RGB16_SNORM, GL_RGBA16_SNORM), layouts[c],
-            GL_SHORT, 2};
-  if (e == binary16::value)
-    return {pick(GL_R16F, GL_RG16F, GL_RGB16F, GL_RGBA16F), layouts[c], GL_HALF_FLOAT, 2};
-  if (e == binary32::value)
-    return {pick(GL_R32F, GL_RG32F, GL_RGB32F, GL_RGBA32F), layouts[c], GL_FLOAT, 4};
-  throw std::runtime_error("the test renderer does not know this format");
-}
-
-bytes to_bytes(const texel_format& format, const coded_image& in) {
-  const gl_format gl = describe(format);
-  bytes out;
-  for (std::size_t i = 0; i < in.texels.size();) {
-    std::uint64_t word = in.texels[i];
-    std::size_t size = gl.word;
-    if (gl.word == 0) {
-      word = in.texels[i] | in.texels[i + 1] << 11 | in.texels[i + 2] << 22;
-      size = 4;
-      i += 3;
-    } else {
-      ++i;
-    }
-    for (std::size_t b = 0; b < size; ++b)
-      out.push_back(static_cast<unsigned char>(word >> (8 * b)));
-  }
-  return out;
-}
-
-coded_image from_bytes(const texel_format& format, int width, int height, const bytes& in) {
-  const gl_format gl = describe(format);
-  coded_image out(width, height, format.channels);
-  const std::size_t size = gl.word == 0 ? 4 : gl.word;
-  for (std::size_t i = 0, at = 0; i < out.texels.size(); at += size) {
-    std::uint64_t word = 0;
-    for (std::size_t b = 0; b < size; ++b) word |= std::uint64_t{in[at + b]} << (8 * b);
-    if (gl.word == 0) {
-      out.texels[i] = word & 2047;
-      out.texels[i + 1] = word >> 11 & 2047;
-      out.texels[i + 2] = word >> 22;
-      i += 3;
-    } else {
-      out.texels[i++] = word;
-    }
-  }
-  return out;
-}
 
 constexpr const char* vertex_source =
     "#version 330\nvoid main(){vec2 "
@@ -374,11 +224,6 @@ gl_functions start(const std::string& driver) {
   gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.glPixelStorei(GL_PACK_ALIGNMENT, 1);
   return gl;
-}
-
-std::size_t texel_bytes(const texel_format& format) {
-  const std::size_t word = describe(format).word;
-  return word == 0 ? 4 : word * static_cast<std::size_t>(format.channels);
 }
 
 std::size_t pixels(int width, int height) {
