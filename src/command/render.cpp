@@ -101,6 +101,7 @@ void render(const options& given) {
                                {"format_error_largest", m.format.largest},
                                {"total_error_rmse", m.total.rmse},
                                {"bleed_area", m.bleed_area},
+                               {"bleed_integral", m.bleed_integral},
                                {"acne_area", m.acne_area},
                                {"notes", done.notes}};
     if (!relaxed.empty()) all["lloyd"] = to_json(relaxed);
@@ -108,8 +109,10 @@ void render(const options& given) {
     return;
   }
   std::cout << label_of(c) << ": format error " << brief(m.format.rmse) << " RMSE, at most "
-            << brief(m.format.largest) << "; bleeds over " << percent(m.bleed_area)
-            << " %, acne over " << percent(m.acne_area) << " % of the receivers\n";
+            << brief(m.format.largest) << "; bleeds over " << percent(m.bleed_area) << " %"
+            << (m.bleed_area > 0 ? " (mean light there " + brief(m.bleed_integral / m.bleed_area) + ")"
+                                 : std::string())
+            << ", acne over " << percent(m.acne_area) << " % of the receivers\n";
   if (done.splits.size() > 2) {
     std::cout << "splits:";
     for (const double s : done.splits) std::cout << ' ' << brief(s, 5);
