@@ -78,6 +78,8 @@ constexpr option_use uses[] = {
      [](config c) { return blurs_its_map(c.method); }},
     {"smallest-box", reach::own, "savsm",
      [](config c) { return c.method == technique::savsm; }},
+    {"depth-bias", reach::own, "techniques that compare depths (hard, pcf, deep)",
+     [](config c) { return compares_depths(c.method); }},
     {"min-variance", reach::effect, "techniques with a variance (vsm, savsm, lvsm, evsm2, evsm4)",
      [](config c) { return uses_floor(c.method); }},
     {"noise-floor", reach::effect, "techniques with a variance in a format, not exact",

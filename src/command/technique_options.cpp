@@ -38,6 +38,8 @@ void add_layer_options(CLI::App& app, configuration& c) {
 }
 
 void add_technique_options(CLI::App& app, configuration& c) {
+  add_number(app, "--depth-bias", c.depth_bias,
+             "Depth that a texel may lie before a receiver and leave it lit: hard, pcf, deep");
   add_number(app, "--bleeding-reduction", c.bleeding_reduction,
              "alpha of p' = (p - alpha)/(1 - alpha)");
   add_number(app, "--bleeding-power", c.bleeding_power,

@@ -44,10 +44,14 @@ std::string left_out(const configuration& how) {
 }
 
 std::string of_depths(const configuration& how) {
+  const double bias = on_split_grid(how.depth_bias);
+  const std::string depth =
+      "clamp(depth, 0.0, 1.0)" + (bias == 0 ? std::string() : " - " + literal(bias));
   if (how.method == technique::hard)
     return "// A comparing sampler, GL_LEQUAL, filter GL_NEAREST, clamped to the edge.\n"
            "float shadow_light(sampler2DShadow map, vec2 uv, float depth) {\n"
-           "  return texture(map, vec3(uv, clamp(depth, 0.0, 1.0)));\n}\n";
+           "  return texture(map, vec3(uv, " +
+           depth + "));\n}\n";
   return "// A comparing sampler, GL_LEQUAL, filter GL_LINEAR, clamped to the edge.\n"
          "float shadow_light(sampler2DShadow map, vec2 uv, float depth) {\n"
          "  vec2 texel = 1.0 / vec2(textureSize(map, 0));\n"
@@ -55,7 +59,9 @@ std::string of_depths(const configuration& how) {
          "  for (int y = -BLUR_RADIUS; y <= BLUR_RADIUS; ++y)\n"
          "    for (int x = -BLUR_RADIUS; x <= BLUR_RADIUS; ++x)\n"
          "      light += BLUR[y + BLUR_RADIUS] * BLUR[x + BLUR_RADIUS] *\n"
-         "               texture(map, vec3(uv + vec2(x, y) * texel, clamp(depth, 0.0, 1.0)));\n"
+         "               texture(map, vec3(uv + vec2(x, y) * texel, " +
+         depth +
+         "));\n"
          "  return min(light, 1.0);\n}\n";
 }
 

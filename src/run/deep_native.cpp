@@ -61,6 +61,7 @@ void run_in(run_context& run) {
   }
   const kernel blur = blur_of(run.how);
   const std::vector<T> weights(blur.weights.begin(), blur.weights.end());
+  const auto bias = static_cast<T>(on_split_grid(run.how.depth_bias));
   result.bytes_per_texel =
       static_cast<int>(mean_steps(depth, blur.radius()) * 2 * run.storage.bits / 8 + 1);
 
@@ -72,7 +73,7 @@ void run_in(run_context& run) {
       if (!has_receiver(r)) continue;
       const lookup look{run.look.filter, false, 1};
       const auto at = plain_taps<T>(look, static_cast<T>(r.u), static_cast<T>(r.v), width, height);
-      const T t = clamp_depth(static_cast<T>(r.t));
+      const T t = clamp_depth(static_cast<T>(r.t)) - bias;
       const auto value = [&](int x, int y) {
         const std::span<const T> taps(weights);
         const auto columns = blurred_axis<T>(x, x, T(0), T(1), taps, width, map_address);

@@ -34,13 +34,14 @@ void shade(run_context& run, const std::vector<Reads>& maps) {
   const int lookups = hard ? 1 : run.how.filtered.lookups;
   const std::vector<double> blur = weights_of(run);
   const std::vector<T> weights(blur.begin(), blur.end());
+  const auto bias = static_cast<T>(on_split_grid(run.how.depth_bias));
   result.visibility.assign(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
   for_ranges(run.threads, scene.receivers.size(), 1024, [&](std::size_t first, std::size_t last) {
     std::vector<Reads> samples = maps;
     for (std::size_t i = first; i < last; ++i) {
       const receiver& r = scene.receivers[i];
       if (!has_receiver(r)) continue;
-      const T t = clamp_depth(static_cast<T>(r.t));
+      const T t = clamp_depth(static_cast<T>(r.t)) - bias;
       const std::span<const T> taps(weights);
       T sum = T(0);
       each_lookup(r, lookups, width, height, [&](const receiver& there) {
@@ -155,7 +156,7 @@ void run_depth_native(run_context& run) {
 void run_depth_exact(run_context& run) {
   const stopwatch watch(run.result.shade_seconds);
   if (run.how.method == technique::hard) {
-    run.result.visibility = hard_exact(run.scene, run.threads);
+    run.result.visibility = hard_exact(run.scene, run.threads, run.how.depth_bias);
     return;
   }
   configuration kernel = run.how;
@@ -163,7 +164,7 @@ void run_depth_exact(run_context& run) {
   // Depths are compared, not averaged: they have no mips, and one probe a lookup.
   if (kernel.filter == texel_filter::trilinear) kernel.filter = texel_filter::bilinear;
   kernel.max_anisotropy = 1;
-  run.result.visibility = truth_pcf(run.scene, kernel, run.threads);
+  run.result.visibility = truth_pcf(run.scene, kernel, run.threads, run.how.depth_bias);
 }
 
 }  // namespace bitshade

@@ -37,7 +37,7 @@ void run_msm_exact(run_context& run);
 void run_summed_area_native(run_context& run);  ///< savsm
 void run_summed_area_exact(run_context& run);   ///< savsm in integers of proven width
 
-/// The hard test of the map as it is: 1 where x >= t at the nearest texel.
-std::vector<double> hard_exact(const frame& scene, int threads);
+/// The hard test of the map as it is: 1 where x >= t - bias at the nearest texel.
+std::vector<double> hard_exact(const frame& scene, int threads, double bias = 0);
 
 }  // namespace bitshade

@@ -1,5 +1,7 @@
 #include "run/pipeline.hpp"
 
+#include <cmath>
+
 #include "bitshade/formats/name.hpp"
 #include "bitshade/shadow/bleeding.hpp"
 #include "bitshade/shadow/layer_packing.hpp"
@@ -68,6 +70,17 @@ void reduce_by_power(const configuration& how, bool wide, cell& result) {
   }
 }
 
+/// Comparisons by less than the store's rounding are decided by it.
+void note_bias(const configuration& how, const encoding& format, cell& result) {
+  const double half_step = format.kind == family::binary
+                               ? std::ldexp(1.0, -format.fraction_bits - 2)  // in [1/2, 1)
+                               : decode(format, 1) / 2;
+  if (how.depth_bias >= half_step) return;
+  result.notes.push_back(how.format + " moves depths by up to " + detail::shortest(half_step) +
+                         ", more than the depth bias of " + detail::shortest(how.depth_bias) +
+                         ": lit surfaces may shade themselves");
+}
+
 }  // namespace
 
 cell run_pipeline(const frame& scene, const configuration& how, const plan& effects, int threads,
@@ -94,6 +107,7 @@ cell run_pipeline(const frame& scene, const configuration& how, const plan& effe
   result.natural |= context.natural && !how.exact() && !storage.code;
   if (how.powered() && !compares_depths(how.method))
     reduce_by_power(how, how.exact() || storage.wide, result);
+  if (compares_depths(how.method) && storage.code) note_bias(how, *storage.code, result);
   result.notes.insert(result.notes.begin(), effects.notes.begin(), effects.notes.end());
   return result;
 }

@@ -191,11 +191,14 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
 
 }  // namespace
 
-std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads) {
+std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads,
+                              double bias) {
+  // On a grid of 2^-24: binary64 loses nothing of t - bias, unless t is so small that it is below 0.
+  bias = on_split_grid(bias);
   const auto maps = depth_maps(scene, how.filtered.msaa);
   return share_of(scene, how, threads, [&](const receiver& r) {
-    return [&maps, t = r.t](int x, int y, int s) {
-      return maps[static_cast<std::size_t>(s)]->at(x, y) >= t;
+    return [&maps, t = static_cast<double>(r.t) - bias](int x, int y, int s) {
+      return static_cast<double>(maps[static_cast<std::size_t>(s)]->at(x, y)) >= t;
     };
   });
 }
@@ -228,11 +231,11 @@ std::vector<double> truth_geometric(const frame& scene, const configuration& how
   });
 }
 
-std::vector<double> hard_exact(const frame& scene, int threads) {
+std::vector<double> hard_exact(const frame& scene, int threads, double bias) {
   configuration nearest;
   nearest.blur_taps = 0;
   nearest.filter = texel_filter::nearest;
-  return truth_pcf(scene, nearest, threads);
+  return truth_pcf(scene, nearest, threads, bias);
 }
 
 }  // namespace bitshade

@@ -23,7 +23,7 @@ const std::map<std::string, std::string> other_values{
     {"lloyd-hysteresis", "0.1"}, {"lloyd-measure", "cost"}, {"lloyd-rest", "0.001"},
     {"lloyd-frames", "50"}, {"msaa", "4"}, {"blur", "5"}, {"blur-sigma", "1"},
     {"blur-shape", "box"}, {"blur-way", "one-pass"}, {"blur-fraction-bits", "4"}, {"lookups", "3"},
-    {"filter", "nearest"}, {"anisotropy", "4"}, {"smallest-box", "3"}, {"min-variance", "1e-4"},
+    {"filter", "nearest"}, {"anisotropy", "4"}, {"smallest-box", "3"}, {"depth-bias", "0.001"}, {"min-variance", "1e-4"},
     {"noise-floor", ""}, {"slope-term", ""}, {"second-moment", "centred"},
     {"bleeding-reduction", "0.2"}, {"bleeding-power", "1.3"}, {"bleeding-lift", "0.65"},
     {"exponent", "4"}, {"negative-exponent", "3"}, {"terms", "6"}, {"moment-bias", "1e-4"},

@@ -1,81 +1,16 @@
 // One cell of a study: a technique in a format, with everything that decides its bits.
 #pragma once
 
-#include <array>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "bitshade/study/choices.hpp"
 #include "bitshade/study/filtering.hpp"
 #include "bitshade/study/lloyd_choices.hpp"
 
 namespace bitshade {
-
-/// The techniques of the sources, in the order of their list ([LauritzenMcCool08], reports).
-/// `deep` stores each texel's filtered visibility as a function of depth: no bound, no bleeding.
-enum class technique { hard, pcf, vsm, savsm, lvsm, evsm2, evsm4, esm, csm, msm, deep };
-
-inline constexpr std::array<std::string_view, 11> technique_names{
-    "hard", "pcf", "vsm", "savsm", "lvsm", "evsm2", "evsm4", "esm", "csm", "msm", "deep"};
-
-constexpr std::string_view name_of(technique t) {
-  return technique_names[static_cast<std::size_t>(t)];
-}
-
-/// The technique of that name; throws std::invalid_argument where there is none.
-inline technique technique_named(std::string_view name) {
-  for (std::size_t i = 0; i < technique_names.size(); ++i) {
-    if (technique_names[i] == name) return static_cast<technique>(i);
-  }
-  throw std::invalid_argument("unknown technique '" + std::string(name) + "'");
-}
-
-/// Where the layers' boundaries come from.
-///
-///   uniform     equal distances
-///   lloyd       Lloyd relaxation over the depth map, at rest
-///   manual      as given
-///   lloyd-view  Lloyd relaxation over what the camera sees of the map
-///   optimal     the least of the cost that Lloyd relaxation lowers, by dynamic programming
-///   receivers   the least measured error of the actual receivers, by search
-enum class split_rule { uniform, lloyd, manual, lloyd_view, optimal, receivers };
-
-inline constexpr std::array<std::string_view, 6> split_rule_names{
-    "uniform", "lloyd", "manual", "lloyd-view", "optimal", "receivers"};
-
-/// What a variance shadow map stores beside the depth x.
-///
-///   square            x^2, of the depth before it is rounded: the sources' way
-///   square_of_stored  the square of the depth as stored: a texel of one depth errs by q/2, not
-///   3q/2 centred           4 (x - 1/2)^2: the variance's error at mu = 1 falls 2.4 times
-enum class second_moment { square, square_of_stored, centred };
-
-inline constexpr std::array<std::string_view, 3> second_moment_names{"square", "square-of-stored",
-                                                                     "centred"};
-
-/// Which layers a receiver looks up; of several the darkest counts.
-///
-///   own      the one that its depth falls into: the source's way
-///   nearer   that one and all in front of it: right where the own one is worse than no layers
-///   every    all of them
-enum class layer_lookup { own, nearer, every };
-
-inline constexpr std::array<std::string_view, 3> layer_lookup_names{"own", "nearer", "every"};
-
-/// The names of layer_warp, in its order.
-inline constexpr std::array<std::string_view, 2> layer_warp_names{"clamped", "unclamped"};
-
-/// Which solution of the moment problem bounds the light of four moments: depths on the whole line
-/// or in the map's range.
-enum class moment_bound { hamburger, hausdorff };
-
-inline constexpr std::array<std::string_view, 2> moment_bound_names{"hamburger", "hausdorff"};
-
-/// How the map is read while shading.
-enum class texel_filter { nearest, bilinear, trilinear };
-
-inline constexpr std::array<std::string_view, 3> filter_names{"nearest", "bilinear", "trilinear"};
 
 /// A technique, a format and their parameters; the defaults are an engine's usual choices.
 ///
@@ -104,6 +39,7 @@ struct configuration {
   bool noise_floor = false;    ///< never a floor under what the format's noise needs for 1/255
   bool slope_term = false;     ///< the receiver-slope term (12), limited at silhouettes
   int smallest_box = 9;        ///< least width of a SAT-VSM's rectangles, in texels
+  double depth_bias = 0;       ///< a depth less than this before the receiver leaves it lit (hard, pcf, deep)
   second_moment second = second_moment::square;
   texel_filter filter = texel_filter::bilinear;
   int max_anisotropy = 1;  ///< 1: isotropic; up to 16
@@ -250,6 +186,7 @@ inline std::string configuration::key() const {
     add("filter", "nearest");
   }
   if (method == technique::savsm) add("smallest-box", std::to_string(smallest_box));
+  if (compares_depths(method) && depth_bias != 0) add("depth-bias", detail::shortest(depth_bias));
   if (method == technique::esm || method == technique::evsm2 || method == technique::evsm4) {
     add("exponent", detail::shortest(exponent));
   }
@@ -331,6 +268,9 @@ inline void configuration::validate() const {
   }
   if (smallest_box < 1 || smallest_box > 256) {
     refuse("smallest box = " + std::to_string(smallest_box) + " texels is outside 1 to 256");
+  }
+  if (!(depth_bias >= 0 && depth_bias <= 0.5)) {
+    refuse("depth bias = " + detail::shortest(depth_bias) + " is outside 0 to 0.5");
   }
   const bool layered = method == technique::lvsm && layers > 1;
   if (layered && transition && lookup != layer_lookup::own) {

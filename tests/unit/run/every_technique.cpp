@@ -83,6 +83,7 @@ std::vector<variant> variants_of(technique t) {
   add(!compares_depths(t), "less bleeding", [](c& h) { h.bleeding_reduction = 0.3; });
   add(!compares_depths(t), "less bleeding by a power",
       [](c& h) { h.bleeding_power = 1.3, h.bleeding_lift = 0.65; });
+  add(compares_depths(t), "a depth bias", [](c& h) { h.depth_bias = 1e-3; });
   add(uses_floor(t), "slope term", [](c& h) { h.slope_term = true; });
   add(stores_variance(t), "square of stored",
       [](c& h) { h.second = second_moment::square_of_stored; });

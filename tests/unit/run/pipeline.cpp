@@ -1,6 +1,7 @@
 // Kernels against the templates that define them, and what must not change a bit.
 #include "run/pipeline.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cfenv>
 #include <cmath>
@@ -193,6 +194,55 @@ TEST_CASE("exact pcf is the truth, and hard tests are one texel") {
     // 100 products and sums of numbers up to 1, each to within 2^-53.
     if (truth[i] == truth[i]) CHECK(std::fabs(wide.visibility[i] - truth[i]) <= 300 * 0x1p-53);
   }
+}
+
+TEST_CASE("a depth bias leaves lit what a format's rounding would shade, and nothing beyond") {
+  frame scene = test::small_frame(16, 16, 40, 5);
+  const float plane = 0.9F;  // unorm16 and half store it as less
+  for (float& x : scene.depth.texels) x = plane;
+  for (receiver& r : scene.receivers) r.t = plane, r.surface = 2;
+  for (const technique method : {technique::hard, technique::pcf, technique::deep}) {
+    configuration how;
+    how.method = method;
+    const auto light = [&](const char* format, double bias, float t) {
+      for (receiver& r : scene.receivers) r.t = t;
+      how.format = format;
+      how.depth_bias = bias;
+      const auto shown = run(scene, how).visibility;
+      REQUIRE(std::all_of(shown.begin(), shown.end(),
+                          [&](double p) { return std::fabs(p - shown.front()) <= 0x1p-20; }));
+      return std::round(shown.front() * 0x1p16) * 0x1p-16;  // sums of the kernel's weights
+    };
+    CAPTURE(name_of(method));
+    CHECK(light("unorm16", 0, plane) == 0);
+    CHECK(light("half", 0, plane) == 0);
+    CHECK(light("unorm16", 1.0 / 65535, plane) == 1);
+    CHECK(light("half", 0x1p-12, plane) == 1);
+    for (const char* const format : {"binary32", "binary64", "exact"}) {
+      CAPTURE(format);
+      const float behind = plane + 0x1p-10F;  // exact: both lie in [1/2, 1)
+      CHECK(light(format, 0, plane) == 1);
+      CHECK(light(format, 0x1p-10, behind) == 1);
+      CHECK(light(format, 0x1p-10 - 0x1p-24, behind) == 0);
+    }
+  }
+}
+
+TEST_CASE("a depth bias under a format's half step is noted") {
+  const auto scene = test::small_frame(8, 8, 10, 5);
+  configuration how;
+  how.method = technique::pcf;
+  const auto notes = [&](const char* format, double bias) {
+    how.format = format;
+    how.depth_bias = bias;
+    return run(scene, how).notes.size();
+  };
+  CHECK(notes("unorm16", 0x1p-18) == 1);
+  CHECK(notes("unorm16", 0x1p-16) == 0);
+  CHECK(notes("half", 0x1p-13) == 1);
+  CHECK(notes("half", 0x1p-12) == 0);
+  CHECK(notes("binary32", 0) == 0);  // a map is binary32 already
+  CHECK(notes("exact", 0) == 0);
 }
 
 TEST_CASE("a name that is no format is refused with the nearest one") {
