@@ -156,7 +156,7 @@ void run_depth_native(run_context& run) {
 void run_depth_exact(run_context& run) {
   const stopwatch watch(run.result.shade_seconds);
   if (run.how.method == technique::hard) {
-    run.result.visibility = hard_exact(run.scene, run.threads, run.how.depth_bias);
+    run.result.visibility = hard_exact(run.scene, run.how.depth_bias, run.threads);
     return;
   }
   configuration kernel = run.how;
@@ -164,7 +164,7 @@ void run_depth_exact(run_context& run) {
   // Depths are compared, not averaged: they have no mips, and one probe a lookup.
   if (kernel.filter == texel_filter::trilinear) kernel.filter = texel_filter::bilinear;
   kernel.max_anisotropy = 1;
-  run.result.visibility = truth_pcf(run.scene, kernel, run.threads, run.how.depth_bias);
+  run.result.visibility = pcf_exact(run.scene, kernel, run.threads);
 }
 
 }  // namespace bitshade

@@ -37,7 +37,9 @@ void run_msm_exact(run_context& run);
 void run_summed_area_native(run_context& run);  ///< savsm
 void run_summed_area_exact(run_context& run);   ///< savsm in integers of proven width
 
+/// truth_pcf(), but for the configuration's depth bias: x >= t - bias.
+std::vector<double> pcf_exact(const frame& scene, const configuration& how, int threads);
 /// The hard test of the map as it is: 1 where x >= t - bias at the nearest texel.
-std::vector<double> hard_exact(const frame& scene, int threads, double bias = 0);
+std::vector<double> hard_exact(const frame& scene, double bias, int threads);
 
 }  // namespace bitshade

@@ -44,10 +44,9 @@ cell run_pipeline(const frame& scene, const configuration& how, const plan& effe
                   int threads = 0, storage_speed speed = storage_speed::emulated);
 
 /// Percentage-closer filtering of the frame's own depth map with the configuration's kernel and
-/// footprint, in exact arithmetic: the share of the footprint with x >= t - bias, rounded once. The
-/// truth has no bias, whatever the configuration says.
-std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads = 0,
-                              double bias = 0);
+/// footprint, in exact arithmetic: the share of the footprint with x >= t, rounded once. It has no
+/// bias, whatever the configuration says.
+std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads = 0);
 
 /// The share of the same footprint that does not occlude the receiver's tangent plane.
 std::vector<double> truth_geometric(const frame& scene, const configuration& how, int threads = 0);

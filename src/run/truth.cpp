@@ -191,10 +191,15 @@ std::vector<double> share_of(const frame& scene, const configuration& how, int t
 
 }  // namespace
 
-std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads,
-                              double bias) {
+std::vector<double> truth_pcf(const frame& scene, const configuration& how, int threads) {
+  configuration unbiased = how;
+  unbiased.depth_bias = 0;
+  return pcf_exact(scene, unbiased, threads);
+}
+
+std::vector<double> pcf_exact(const frame& scene, const configuration& how, int threads) {
   // On a grid of 2^-24: binary64 loses nothing of t - bias, unless t is so small that it is below 0.
-  bias = on_split_grid(bias);
+  const double bias = on_split_grid(how.depth_bias);
   const auto maps = depth_maps(scene, how.filtered.msaa);
   return share_of(scene, how, threads, [&](const receiver& r) {
     return [&maps, t = static_cast<double>(r.t) - bias](int x, int y, int s) {
@@ -231,11 +236,12 @@ std::vector<double> truth_geometric(const frame& scene, const configuration& how
   });
 }
 
-std::vector<double> hard_exact(const frame& scene, int threads, double bias) {
+std::vector<double> hard_exact(const frame& scene, double bias, int threads) {
   configuration nearest;
   nearest.blur_taps = 0;
   nearest.filter = texel_filter::nearest;
-  return truth_pcf(scene, nearest, threads, bias);
+  nearest.depth_bias = bias;
+  return pcf_exact(scene, nearest, threads);
 }
 
 }  // namespace bitshade
