@@ -69,10 +69,6 @@ std::string text_of(const blame& b, const configuration& c) {
   return out;
 }
 
-nlohmann::ordered_json figures_of(const error_figures& e) {
-  return {{"rmse", e.rmse}, {"largest", e.largest}, {"p999", e.p999}, {"mean", e.signed_mean}};
-}
-
 void find_guilt(const options& given) {
   const std::vector<configuration> cells = given.cell->cells();
   if (cells.size() != 1) {
@@ -83,9 +79,10 @@ void find_guilt(const options& given) {
   const configuration& c = cells.front();
   const stage_choices choices = choices_of(given);
   check_use(*given.cell->app, cells, measured::alone);
-  if (given.weight_bits > 0 && (c.filter != texel_filter::bilinear || c.max_anisotropy > 1)) {
-    throw usage_error("--weight-bits is for plain bilinear lookups: leave out --filter and "
-                      "--anisotropy, or --weight-bits");
+  if (given.weight_bits > 0 && (!blurs_its_map(c.method) || c.filter != texel_filter::bilinear ||
+                                c.max_anisotropy > 1)) {
+    throw usage_error("--weight-bits is for plain bilinear lookups: leave out --filter, "
+                      "--anisotropy and savsm, or --weight-bits");
   }
   const frame input = load_for(given.scene, *given.how, cells);
   check_study_memory(input, cells);
@@ -105,22 +102,13 @@ void find_guilt(const options& given) {
   files["report"] = page;
 
   if (given.json) {
-    nlohmann::ordered_json stages = nlohmann::ordered_json::array();
-    for (const stage_blame& s : b.stages) {
-      stages.push_back({{"stage", name_of(s.which)},
-                        {"alone", figures_of(s.alone)},
-                        {"without", figures_of(s.without)},
-                        {"share", b.share(s)}});
-    }
-    std::cout << nlohmann::ordered_json{{"scene", given.scene},
-                                        {"configuration", c.key()},
-                                        {"weight_bits", given.weight_bits},
-                                        {"shading", given.shading},
-                                        {"whole", figures_of(b.whole)},
-                                        {"stages", stages},
-                                        {"files", files}}
-                     .dump(1)
-              << '\n';
+    nlohmann::ordered_json all{{"scene", given.scene},
+                               {"configuration", c.key()},
+                               {"weight_bits", given.weight_bits},
+                               {"shading", given.shading}};
+    all.update(blame_json(b));
+    all["files"] = files;
+    std::cout << all.dump(1) << '\n';
     return;
   }
   std::cout << text_of(b, c) << "Maps and bars:\n" << pictures.list() << "  " << page << '\n';
@@ -134,8 +122,9 @@ void add_blame(CLI::App& app) {
       "blame",
       "Which stage is guilty of how much of a format's error\n"
       "Runs one configuration with each stage alone in the format and with each stage alone exact: "
-      "Lloyd's reduction, store, resolve, blur, mips, filter weights, filter, shading. A table here; bars "
-      "and maps of each stage's error as PNG and HTML in the folder of --out.");
+      "Lloyd's reduction, store, resolve, blur, mips, a summed-area table's running sums, filter "
+      "weights, filter, shading. A table here; bars and maps of each stage's error as PNG and HTML "
+      "in the folder of --out.");
   command->add_option("SCENE", given->scene, scene_argument_help())->capture_default_str();
   study_options initial;
   initial.techniques = "vsm";

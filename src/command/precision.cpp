@@ -10,6 +10,7 @@
 #include "command/commands.hpp"
 #include "command/filter_options.hpp"
 #include "command/option_use.hpp"
+#include "command/precision_scene.hpp"
 #include "command/scene_options.hpp"
 #include "command/study_options.hpp"
 #include "io/atomic_file.hpp"
@@ -27,6 +28,7 @@ constexpr const char* filter_group = "Filters on the scene";
 struct options {
   std::string scene;
   std::shared_ptr<scene_options> how;
+  std::string techniques = "lvsm,savsm,evsm2,evsm4";
   std::string layers = "1,2,4,8", floors = "1e-4,9e-6", roundings = "1,3";
   double tolerated = 1.0 / 255, overlap = 0, exponent = 5, reach = 0;
   bool adversarial = false, joint = false, json = false;
@@ -86,26 +88,11 @@ asked checked(const options& given) {
   return a;
 }
 
-/// What is searched on a scene: vsm and lvsm in every number of layers, evsm2 and evsm4.
-std::vector<configuration> cells_on_scene(const options& given, const asked& a) {
-  configuration c = given.filters;
-  c.exponent = c.negative_exponent = given.exponent;
-  c.overlap = given.overlap;
-  std::vector<configuration> all;
-  for (const double floor : a.floors) {
-    c.min_variance = floor;
-    for (const int n : a.layers) {
-      c.method = n == 1 ? technique::vsm : technique::lvsm;
-      c.layers = n;
-      all.push_back(c);
-    }
-    c.layers = 1;
-    for (const technique t : {technique::evsm2, technique::evsm4}) {
-      c.method = t;
-      all.push_back(c);
-    }
-  }
-  return all;
+scene_question question_of(const options& given, const asked& a) {
+  configuration base = given.filters;
+  base.exponent = base.negative_exponent = given.exponent;
+  base.overlap = given.overlap;
+  return {base, techniques_of(given.techniques), a.layers, a.floors};
 }
 
 /// Refuses options of a part that is not asked for.
@@ -125,13 +112,14 @@ void refuse_idle(const options& given, const asked& a) {
     }
   }
   if (!given.scene.empty()) {
-    check_use(*given.app, cells_on_scene(given, a), measured::alone);
+    check_use(*given.app, cells_on_scene(question_of(given, a)), measured::alone);
     return;
   }
   std::string idle = given.how->given.empty() ? "" : *given.how->given.begin();
   for (const CLI::Option* option : given.app->get_options()) {
     if (option->get_group() == filter_group && option->count() > 0) idle = option->get_name();
   }
+  if (given.app->count("--techniques") > 0) idle = "--techniques";
   if (!idle.empty()) throw usage_error(idle + " is for the search on a scene: give a SCENE");
 }
 
@@ -174,20 +162,11 @@ void search_stages(const options& given, const asked& a, precision_findings& fou
   }
 }
 
-/// Each stage of vsm and lvsm on the scene, and the stores of evsm2 and evsm4.
 void search_on_scene(const options& given, const asked& a, precision_findings& found) {
-  const auto cells = cells_on_scene(given, a);
+  const auto cells = cells_on_scene(question_of(given, a));
   const frame input = load_for(given.scene, *given.how, cells);
   found.scene = given.scene;
-  for (const configuration& c : cells) {
-    const bool exponential = c.method == technique::evsm2 || c.method == technique::evsm4;
-    for (const stage s : stages_of(c)) {
-      if (s == stage::filter) continue;  // its arithmetic is no format of its own
-      if (exponential && (s == stage::weights || s == stage::shading)) continue;
-      found.on_scene.push_back(
-          bit_search::search_scene(input, c, s, given.tolerated, given.how->threads));
-    }
-  }
+  search_cells(input, cells, given.how->threads, found);
 }
 
 void answer(const options& given) {
@@ -246,13 +225,17 @@ void add_precision(CLI::App& app) {
       "The fewest bits that keep an error, predicted and found\n"
       "Says for each stage, number of layers and floor how many bits keep every visibility within "
       "an error: by the bound, which holds for every footprint, and by a search for footprints "
-      "that "
-      "break fewer, judged in exact arithmetic. Also draws floor, overlap, layers and bits "
+      "that break fewer, judged in exact arithmetic; on a scene also of summed-area tables, "
+      "running sums apart and all stages together. Also draws floor, overlap, layers and bits "
       "together.");
   options* const o = given.get();
   command->add_option(
       "SCENE", o->scene,
       "Search on this scene too, each stage alone in the format: " + scene_argument_help());
+  command->add_option("--techniques,--technique", o->techniques,
+                      "Searched on the scene; lvsm in all numbers of layers")
+      ->capture_default_str()
+      ->option_text("LIST");
   command->add_option("--layers", o->layers, "Layers of an LVSM")
       ->capture_default_str()
       ->option_text("LIST");

@@ -84,6 +84,12 @@ void choose_splits(const std::string& text, configuration& c) {
 
 }  // namespace
 
+std::vector<technique> techniques_of(const std::string& list) {
+  std::vector<technique> all;
+  for (const std::string& name : words_of(list, "--techniques")) all.push_back(technique_of(name));
+  return all;
+}
+
 std::vector<configuration> study_options::cells() const {
   configuration base = common;
   choose_splits(splits, base);
@@ -99,8 +105,8 @@ std::vector<configuration> study_options::cells() const {
                           ": leave one of the two out");
   }
   std::vector<configuration> all;
-  for (const std::string& name : words_of(techniques, "--techniques")) {
-    base.method = technique_of(name);
+  for (const technique method : techniques_of(techniques)) {
+    base.method = method;
     for (const int n : base.method == technique::lvsm ? counts : std::vector<int>{1}) {
       for (const std::string& format : words_of(formats, "--formats")) {
         configuration c = base;

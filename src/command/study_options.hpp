@@ -29,6 +29,10 @@ struct study_options {
   std::vector<configuration> cells() const;
 };
 
+/// The techniques of a --techniques list.
+/// Failure  usage_error for a name that is unknown or there twice.
+std::vector<technique> techniques_of(const std::string& list);
+
 /// Adds --techniques, --formats, --layers, --splits, --overlap, --blur, --min-variance and the
 /// finer ones; the defaults that `initial` holds are shown in the help.
 std::shared_ptr<study_options> add_study_options(CLI::App& app, const study_options& initial);

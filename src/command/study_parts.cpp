@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
+#include "command/precision_scene.hpp"
 #include "io/build.hpp"
 #include "io/error.hpp"
 #include "io/text.hpp"
@@ -14,7 +17,10 @@
 namespace bitshade::command {
 namespace {
 
-/// "A unorm's bits that keep every visibility within 0.00392, with a floor of 1e-5: 1 layer 25, ..."
+std::string bits_or_none(int bits) { return bits == 0 ? "none" : std::to_string(bits); }
+
+/// "Bits of a unorm that keep every visibility within 0.00392, whatever the footprint: 25 for 1
+/// layer, ..; on this scene: ..; of a summed-area table on this scene: store 17, sums 31 .."
 std::string sentence_of(const precision_findings& found) {
   std::string text = "Bits of a unorm that keep every visibility within " + brief(found.tolerated);
   if (!found.curves.empty()) {
@@ -24,13 +30,42 @@ std::string sentence_of(const precision_findings& found) {
       text += (i ? ", " : " ") + std::to_string(curve[i].predicted_whole) + " for " +
               std::to_string(curve[i].layers) + (curve[i].layers == 1 ? " layer" : " layers");
   }
-  text += "; on this scene:";
-  for (std::size_t i = 0; i < found.on_scene.size(); ++i) {
-    const auto& s = found.on_scene[i];
-    text += (i ? ", " : " ") + (s.found == 0 ? "none" : std::to_string(s.found)) + " for " +
-            std::to_string(s.layers);
+  std::string layers, table;
+  for (const bit_search::scene_bits& s : found.on_scene) {
+    if (s.technique == name_of(technique::savsm)) {
+      table += (table.empty() ? " " : ", ") + bits_or_none(s.found) + " of a " + s.unit +
+               (s.stage == "all" ? " for all stages" : " for the " + s.stage);
+    } else {
+      layers += (layers.empty() ? " " : ", ") + bits_or_none(s.found) + " for " +
+                std::to_string(s.layers);
+    }
   }
+  if (!layers.empty()) text += "; on this scene:" + layers;
+  if (!table.empty()) text += "; of a summed-area table on this scene:" + table;
   return text + ".";
+}
+
+/// Whether bits are searched with this floor.
+bool searchable(double floor) { return floor >= 1e-12 && floor <= 0.01; }
+
+/// Bits against layers, on footprints.
+void search_curves(const configuration& base, const std::vector<int>& layers,
+                   precision_findings& found) {
+  for (const int roundings : {1, 3}) {
+    std::vector<bit_search::needed_bits> curve;
+    for (const int n : layers) {
+      precision_question question;
+      question.tolerated = found.tolerated;
+      question.floor_deviation = std::sqrt(base.min_variance);
+      question.roundings = roundings;
+      try {
+        curve.push_back(bit_search::bits_needed(question, n, base.overlap));
+      } catch (const std::invalid_argument&) {
+        continue;  // the floor fills the layer
+      }
+    }
+    if (!curve.empty()) found.curves.push_back(std::move(curve));
+  }
 }
 
 }  // namespace
@@ -51,8 +86,13 @@ report_part blamed(const study_job& job, const job_result& result, std::size_t i
       const blame found = blame_of(scene, cell->what, {}, job.scene->threads);
       const std::string command =
           "bitshade blame " + shell_quoted(job.scenes[input]) + cell->arguments;
-      return blame_part(found, blame_maps(found, scene.view_width, scene.view_height),
-                        label_of(cell->what), cell->what.format, command);
+      report_part part = blame_part(found, blame_maps(found, scene.view_width, scene.view_height),
+                                    label_of(cell->what), cell->what.format, command);
+      nlohmann::ordered_json data{{"configuration", cell->what.key()}, {"command", command}};
+      data.update(blame_json(found));
+      part.name = "blame";
+      part.data = data.dump();
+      return part;
     } catch (const usage_error& e) {
       why = e.what();
     }
@@ -63,53 +103,55 @@ report_part blamed(const study_job& job, const job_result& result, std::size_t i
 std::vector<report_part> bits_needed(const study_job& job, const job_result& result,
                                      std::size_t input) {
   std::vector<int> layers;
-  configuration base;
-  for (const asked_cell& cell : job.cells)
-    if (cell.what.method == technique::vsm || cell.what.method == technique::lvsm) {
-      if (layers.empty()) base = cell.what;
-      layers.push_back(cell.what.layers);
-    }
+  std::optional<configuration> layered, summed;  // the first of each
+  for (const asked_cell& cell : job.cells) {
+    const configuration& c = cell.what;
+    if (c.method == technique::savsm && !summed) summed = c;
+    if (c.method != technique::vsm && c.method != technique::lvsm) continue;
+    if (!layered) layered = c;
+    layers.push_back(c.layers);
+  }
   std::sort(layers.begin(), layers.end());
   layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
-  if (layers.empty())
-    throw usage_error("--precision needs a VSM or an LVSM: add one to --techniques");
-  if (!(base.min_variance >= 1e-12 && base.min_variance <= 0.01))
+  if (!layered && !summed)
+    throw usage_error("--precision needs a VSM, an LVSM or a SAT-VSM: add one to --techniques");
+  const configuration& any = layered ? *layered : *summed;
+  if (!searchable(any.min_variance) || (summed && !searchable(summed->min_variance)))
     throw usage_error("--precision needs a floor from 1e-12 to 0.01: give --min-variance");
 
+  const frame& scene = result.frames[input];
   precision_findings found;
-  std::string command = "bitshade precision " + shell_quoted(job.scenes[input]) +
-                        " --adversarial --min-variance " + shortest(base.min_variance) +
-                        " --layers ";
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    command += (i ? "," : "") + std::to_string(layers[i]);
-  for (const int roundings : {1, 3}) {
-    std::vector<bit_search::needed_bits> curve;
-    for (const int n : layers) {
-      precision_question question;
-      question.tolerated = found.tolerated;
-      question.floor_deviation = std::sqrt(base.min_variance);
-      question.roundings = roundings;
-      try {
-        curve.push_back(bit_search::bits_needed(question, n, base.overlap));
-      } catch (const std::invalid_argument&) {
-        continue;  // the floor fills the layer
-      }
-    }
-    if (!curve.empty()) found.curves.push_back(std::move(curve));
-  }
   found.scene = job.scenes[input];
+  std::string command = "bitshade precision " + shell_quoted(found.scene);
+  if (layered) {
+    command += " --adversarial --layers ";
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      command += (i ? "," : "") + std::to_string(layers[i]);
+    search_curves(*layered, layers, found);
+  }
+  command += std::string(" --min-variance ") + shortest(any.min_variance) + " --techniques " +
+             (layered ? summed ? "lvsm,savsm" : "lvsm" : "savsm");
   for (const int n : layers) {
-    configuration c = base;
+    configuration c = *layered;
     c.method = n == 1 ? technique::vsm : technique::lvsm;
     c.layers = n;
     c.noise_floor = false;
     if (n == 1 || c.splits == split_rule::manual)
       c.splits = split_rule::uniform, c.manual_splits.clear();
-    found.on_scene.push_back(bit_search::search_scene(result.frames[input], c, stage::store,
-                                                      found.tolerated, job.scene->threads));
+    found.on_scene.push_back(bit_search::search_scene(
+        scene, c, {stage::store, bit_search::bit_unit::unorm}, found.tolerated,
+        job.scene->threads));
+  }
+  if (summed) {
+    summed->noise_floor = false;
+    search_cells(scene, {*summed}, job.scene->threads, found);
   }
   std::vector<report_part> parts = precision_parts(found, command);
+  nlohmann::ordered_json data{{"command", command}};
+  data.update(precision_json(found));
   parts.front().finding = sentence_of(found);
+  parts.front().name = "precision";
+  parts.front().data = data.dump();
   return parts;
 }
 

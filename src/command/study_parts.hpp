@@ -14,8 +14,9 @@ namespace bitshade::command {
 report_part blamed(const study_job& job, const job_result& result, std::size_t input);
 
 /// Bits against layers, for the study's layers and floor: by the bound, on adversarial footprints,
-/// and, for the store, on the input.
-/// Failure  usage_error where the study has no VSM and no LVSM, or where its floor is none.
+/// and, for the store, on the input; for a SAT-VSM its store, its running sums, its shading and all
+/// of them, on the input.
+/// Failure  usage_error where the study has no VSM, LVSM or SAT-VSM, or where its floor is none.
 std::vector<report_part> bits_needed(const study_job& job, const job_result& result,
                                      std::size_t input);
 

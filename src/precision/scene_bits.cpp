@@ -1,15 +1,21 @@
 #include "precision/scene_bits.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "bitshade/study/bounds_sums.hpp"
 #include "bitshade/study/measures.hpp"
 #include "bitshade/study/precision.hpp"
 #include "bitshade/study/precision_stages.hpp"
 #include "bitshade/texture/mip.hpp"
+#include "run/summed_area.hpp"
 
 namespace bitshade::bit_search {
 
 namespace {
+
+constexpr std::array<const char*, 3> unit_names{"unorm", "significand", "fraction"};
 
 bool exponential(const configuration& how) {
   return how.method == technique::evsm2 || how.method == technique::evsm4;
@@ -18,14 +24,16 @@ bool stores(stage s) {
   return s == stage::store || s == stage::resolve || s == stage::blur || s == stage::mips;
 }
 
-int widest(const configuration& how, stage s) {
-  if (s == stage::weights || s == stage::shading) return 23;
-  return exponential(how) ? 24 : 28;
+int widest(const configuration& how, const scene_search& search) {
+  if (search.unit == bit_unit::unorm) return 28;
+  if (search.which == stage::weights || search.which == stage::shading) return 23;
+  return how.method == technique::savsm ? 52 : 24;
 }
 
-const char* unit_of(const configuration& how, stage s) {
-  if (s == stage::weights) return "fraction";
-  return s == stage::shading || exponential(how) ? "significand" : "unorm";
+/// Floats have the range of binary32, so that nothing but the significand counts.
+std::string format_of(bit_unit unit, int bits) {
+  return unit == bit_unit::unorm ? "unorm" + std::to_string(bits)
+                                 : "e8m" + std::to_string(bits - 1);
 }
 
 /// Roundings that a stage makes on its own: the store one, a blur one a pass, mips one a level.
@@ -35,7 +43,24 @@ int roundings_of(const frame& scene, const configuration& how, stage s) {
   return 1;
 }
 
-int predicted_bits(const frame& scene, const configuration& how, stage s, double tolerated) {
+/// The rectangle of the scene's receivers that running sums serve worst: the narrowest.
+summed_rectangle narrowest_rectangle(const frame& scene, const configuration& how) {
+  summed_rectangle worst;
+  worst.map_width = worst.width = scene.depth.width;
+  worst.map_height = worst.height = scene.depth.height;
+  for (const receiver& r : scene.receivers) {
+    if (r.surface == 0) continue;
+    const auto box = box_of(r, scene.depth.width, scene.depth.height, how.smallest_box);
+    worst.width = std::min(worst.width, box.x1 - box.x0);
+    worst.height = std::min(worst.height, box.y1 - box.y0);
+  }
+  return worst;
+}
+
+int predicted_bits(const frame& scene, const configuration& how, const scene_search& search,
+                   double tolerated) {
+  if (!search.which) return 0;
+  const stage s = *search.which;
   precision_question q;
   q.tolerated = tolerated;
   q.floor_deviation = std::sqrt(how.min_variance);
@@ -50,28 +75,62 @@ int predicted_bits(const frame& scene, const configuration& how, stage s, double
     return fewest_bits(tolerated, 53,
                        [&](int b) { return shading_error_at(unit_roundoff(b), q.width, floor); });
   }
+  if (s == stage::sums) {
+    summed_rectangle r = narrowest_rectangle(scene, how);
+    return fewest_bits(tolerated, widest(how, search), [&](int b) {
+      r.arithmetic = unit_roundoff(b <= 24 ? 24 : 53);
+      r.store = unit_roundoff(b);
+      return summed_error_at(r, floor);
+    });
+  }
   if (exponential(how)) {
     return fewest_bits(tolerated, 53, [&](int b) {
       return evsm_error_at(unit_roundoff(b), q.roundings, how.exponent, q.floor_deviation);
     });
   }
-  return unorm_bits_needed(q);
+  return search.unit == bit_unit::unorm ? unorm_bits_needed(q) : significand_bits_needed(q);
 }
 
 }  // namespace
 
-scene_bits search_scene(const frame& scene, const configuration& asked, stage which,
+std::vector<scene_search> searches_of(const configuration& asked) {
+  configuration how = asked;
+  const bool sums = how.method == technique::savsm;
+  how.format = "half";  // with sums
+  std::vector<scene_search> all;
+  const auto add_stores = [&](bit_unit unit) {
+    for (const stage s : stages_of(how))
+      if (stores(s)) all.push_back({s, unit});
+  };
+  add_stores(exponential(how) ? bit_unit::significand : bit_unit::unorm);
+  if (sums) {
+    all.push_back({{}, bit_unit::unorm});
+    add_stores(bit_unit::significand);
+  }
+  for (const stage s : stages_of(how)) {
+    if (s == stage::sums) all.push_back({s, bit_unit::significand});
+    if (!stores_variance(how.method)) continue;
+    if (s == stage::weights) all.push_back({s, bit_unit::fraction});
+    if (s == stage::shading) all.push_back({s, bit_unit::significand});
+  }
+  if (sums) all.push_back({{}, bit_unit::significand});
+  return all;
+}
+
+scene_bits search_scene(const frame& scene, const configuration& asked, const scene_search& search,
                         double tolerated, int threads) {
   configuration how = asked;
   const auto light = [&](int bits) {
     stage_choices choices;
-    choices.in_format = bits == 0 ? stage_set::none() : stage_set::only(which);
+    if (search.which) choices.in_format = stage_set::only(*search.which);
+    if (bits == 0) choices.in_format = stage_set::none();
     how.format = exponential(how) ? "e8m23" : "binary32";
-    if (bits > 0 && which == stage::weights) choices.weight_bits = bits;
-    if (bits > 0 && which == stage::shading) choices.shading = binary_encoding(8, bits - 1);
-    if (bits > 0 && stores(which)) {
-      how.format =
-          exponential(how) ? "e8m" + std::to_string(bits - 1) : "unorm" + std::to_string(bits);
+    if (bits > 0 && search.which == stage::weights) {
+      choices.weight_bits = bits;
+    } else if (bits > 0 && search.which == stage::shading) {
+      choices.shading = binary_encoding(8, bits - 1);
+    } else if (bits > 0) {
+      how.format = format_of(search.unit, bits);
     }
     return run_staged(scene, how, choices, threads).visibility;
   };
@@ -79,12 +138,13 @@ scene_bits search_scene(const frame& scene, const configuration& asked, stage wh
   const auto error_with = [&](int bits) { return compare(light(bits), exact).largest; };
   scene_bits r;
   r.technique = name_of(how.method);
-  r.stage = name_of(which);
-  r.unit = unit_of(how, which);
+  r.stage = search.which ? name_of(*search.which) : "all";
+  r.unit = unit_names[static_cast<std::size_t>(search.unit)];
   r.layers = how.method == technique::lvsm ? how.layers : 1;
   r.min_variance = how.min_variance;
-  r.predicted = predicted_bits(scene, how, which, tolerated);
-  int low = 1, high = widest(how, which) + 1;  // low breaks, high keeps or is beyond
+  r.predicted = predicted_bits(scene, how, search, tolerated);
+  const int most = widest(how, search);
+  int low = 1, high = most + 1;  // low breaks, high keeps or is beyond
   r.error_below = error_with(2);
   if (r.error_below <= tolerated) {
     r.found = 2;
@@ -102,7 +162,7 @@ scene_bits search_scene(const frame& scene, const configuration& asked, stage wh
       low = middle, r.error_below = error;
     }
   }
-  r.found = high > widest(how, which) ? 0 : high;
+  r.found = high > most ? 0 : high;
   return r;
 }
 

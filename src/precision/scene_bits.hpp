@@ -1,6 +1,8 @@
-// The fewest bits that keep an error on one scene: each stage alone in the format, the rest exact.
+// The fewest bits that keep an error on one scene: each stage alone in the format, the rest exact,
+// or every stage in it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,23 +11,41 @@
 
 namespace bitshade::bit_search {
 
+/// What bits are counted of.
+enum class bit_unit { unorm, significand, fraction };
+
+/// One search: a stage alone, or all of them, in one kind of format.
+struct scene_search {
+  std::optional<stage> which;  ///< none: every stage
+  bit_unit unit = bit_unit::unorm;
+};
+
 /// `found` bits keep every receiver of the scene within eps, and one bit fewer does not.
 struct scene_bits {
-  std::string technique, stage, unit;
+  std::string technique;
+  std::string stage;  ///< "all": every stage in the format
+  std::string unit;
   int layers = 1;
   double min_variance = 0;
-  int predicted = 0;       ///< for every footprint; 0: no bound up to the widest looked at
+  int predicted = 0;       ///< for every footprint; 0: no bound up to the widest looked at, or none
   int found = 0;           ///< on this scene; 0: the widest does not suffice
   double error = 0;        ///< largest format error with `found` bits
   double error_below = 0;  ///< and with one bit fewer
 };
 
-/// Searches one stage of a configuration, whose format is not read: store, blur and mips in unorms
-/// (significands for evsm), weights in fraction bits, shading in significand bits.
+/// The searches that a configuration calls for, its format not read: stores (texels, resolve, blur,
+/// mips) in unorms, of EVSM in significands, of savsm in both; the running sums of savsm in
+/// significands, since sums of unorms lose nothing; weights in fraction bits; shading of variances
+/// in significands; and all stages of savsm in unorms and in floats. The arithmetic of filters has
+/// no format of its own.
+std::vector<scene_search> searches_of(const configuration& how);
+
+/// Searches the fewest bits of a configuration, whose format is not read.
 ///
-/// Policy   bits are halved: the largest error is taken to fall with them.
+/// Policy   bits are halved: the largest error is taken to fall with them. Of all stages in a
+///          format, everything but stores is done in binary32 or binary64, as run_pipeline() does.
 /// Failure  as run_staged().
-scene_bits search_scene(const frame& scene, const configuration& how, stage which, double tolerated,
-                        int threads = 0);
+scene_bits search_scene(const frame& scene, const configuration& how, const scene_search& search,
+                        double tolerated, int threads = 0);
 
 }  // namespace bitshade::bit_search

@@ -40,7 +40,22 @@ std::string table_of(const blame& b) {
                         body);
 }
 
+nlohmann::ordered_json figures_of(const error_figures& e) {
+  return {{"rmse", e.rmse}, {"largest", e.largest}, {"p999", e.p999}, {"mean", e.signed_mean}};
+}
+
 }  // namespace
+
+nlohmann::ordered_json blame_json(const blame& b) {
+  nlohmann::ordered_json stages = nlohmann::ordered_json::array();
+  for (const stage_blame& s : b.stages) {
+    stages.push_back({{"stage", name_of(s.which)},
+                      {"alone", figures_of(s.alone)},
+                      {"without", figures_of(s.without)},
+                      {"share", b.share(s)}});
+  }
+  return {{"whole", figures_of(b.whole)}, {"stages", stages}};
+}
 
 std::string blame_sentence(const blame& b) {
   if (b.whole.rmse == 0) return "No stage changes a bit of the picture.";

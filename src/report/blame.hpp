@@ -1,8 +1,9 @@
 // Which stage is guilty, as a part of a report.
 #pragma once
 
-#include <map>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/html.hpp"
@@ -12,6 +13,9 @@ namespace bitshade {
 
 /// "The store is guilty: alone it makes 81 % of the summed squares; …"
 std::string blame_sentence(const blame& found);
+
+/// All stages in the format ("whole"), and each alone and alone exact, with its share ("stages").
+nlohmann::ordered_json blame_json(const blame& found);
 
 /// Error maps as PNG by their names: "all" and each stage's, in the order that they are shown.
 std::vector<std::pair<std::string, std::string>> blame_maps(const blame& found, int width,

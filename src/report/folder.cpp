@@ -54,6 +54,8 @@ json results_json(const report_head& head, const std::vector<report_section>& se
     const auto info = json::parse(s.input.description, nullptr, false);
     if (info.is_object()) input.update(info);
     input["findings"] = findings(s.rows);
+    for (const report_part& part : s.parts)
+      if (!part.data.empty()) input["parts"][part.name] = json::parse(part.data);
     out["inputs"].push_back(input);
     for (const row& r : s.rows) out["rows"].push_back(to_json(r));
   }

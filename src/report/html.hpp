@@ -15,6 +15,8 @@ struct report_part {
   std::string text;  ///< what is seen, in words
   std::string body;  ///< HTML: sortable_table()s (html_table.hpp) and figure()s (figures.hpp)
   std::string finding = {};  ///< one sentence for the summary; empty: it adds none
+  std::string name = {};     ///< of `data` among an input's parts in results.json
+  std::string data = {};     ///< the figures as JSON; empty: they are in the rows
 };
 
 /// One input of a study with everything that is shown of it.

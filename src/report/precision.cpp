@@ -82,11 +82,12 @@ std::string scene_text(const precision_findings& found) {
       {"name", "stage", "N", "floor", "bits of", "bound", "found", "error", "- 1 bit"}};
   for (const scene_bits& s : found.on_scene) {
     lines.push_back({s.technique, s.stage, std::to_string(s.layers), brief(s.min_variance, 2),
-                     s.unit, bits_or_none(s.predicted), bits_or_none(s.found), brief(s.error),
+                     s.unit, s.stage == "all" ? "-" : bits_or_none(s.predicted),
+                     bits_or_none(s.found), brief(s.error),
                      brief(s.error_below)});
   }
   return "On " + found.scene +
-         ": the fewest bits that keep every receiver, each stage alone in them\n" +
+         ": the fewest bits that keep every receiver, each stage alone in them or all\n" +
          text_table(lines, {0, 1, 4}) + "\n";
 }
 

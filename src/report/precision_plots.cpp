@@ -106,8 +106,8 @@ report_part stages_part(const precision_findings& found) {
   for (const scene_bits& s : found.on_scene) add(found.scene, s, s.error_below);
   return {"Bits of each stage",
           "The fewest bits that keep the error: of a filter weight's fraction, of a significand in "
-          "shading or in an exponential map's store, of a unorm. Predicted for every footprint, "
-          "and found.",
+          "shading, in running sums or in an exponential map's store, of a unorm. Predicted for "
+          "every footprint, and found; for all stages together there is no bound.",
           sortable_table({{"where", "", true},
                           {"technique", "", true},
                           {"stage", "", true},

@@ -1,108 +1,42 @@
-#include "run/staged.hpp"
+#include "run/staged_run.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "bitshade/shadow/evsm.hpp"
 #include "bitshade/shadow/lloyd.hpp"
 #include "bitshade/shadow/moments.hpp"
 #include "io/error.hpp"
-#include "run/slope.hpp"
+#include "run/parallel.hpp"
+#include "run/shading_arithmetic.hpp"
 
 namespace bitshade {
 
 namespace {
 
-/// vsm and lvsm over any number; the same operations as variance_technique's.
-template <class V>
-class staged_variance {
- public:
-  explicit staged_variance(const configuration& how) : how_(how) {}
+using run_function = void (*)(const staged_run&);
 
-  int channels() const { return 2; }
-  void begin(const interval& layer) {
-    layer_ = layer;
-    floor_ = layer_floor<V>(how_.min_variance, layer);
+/// None where a technique has no stages that can be told apart.
+run_function function_of(technique t) {
+  switch (t) {
+    case technique::vsm:
+    case technique::lvsm:
+      return run_staged_variance;
+    case technique::savsm:
+      return run_staged_summed_area;
+    case technique::evsm2:
+    case technique::evsm4:
+      return run_staged_evsm;
+    default:
+      return nullptr;
   }
-  template <class Keep>
-  void fill(const image<float>& depth, int y, std::span<V> row, Keep keep) const {
-    warp_row<V>(depth.row(y), layer_, row, 2, how_.warping);
-    if (how_.second == second_moment::centred) {
-      centred_square_row<V>(row, 2);
-    } else {
-      if (how_.second == second_moment::square_of_stored) keep(row);
-      square_row<V>(row, 2);
-    }
-    if (how_.slope_term) add_layer_slope<V>(depth, y, layer_, how_, row);
-  }
-  V light(std::span<const V> values, const V& t) const {
-    const auto at = how_.second == second_moment::centred
-                        ? mean_and_centred_variance(values[0], values[1])
-                        : mean_and_variance(values[0], values[1]);
-    return chebyshev(at, warp(t, layer_, how_.warping), floor_);
-  }
-  shading_input shading(const std::vector<double>& values, double t) const {
-    return {values[0], values[1],         t,
-            layer_,    how_.min_variance, how_.second == second_moment::centred};
-  }
+}
 
- private:
-  const configuration& how_;
-  interval layer_;
-  V floor_{};
-};
-
-/// evsm2 and evsm4 over any number; the same operations as evsm_technique's.
-template <class V>
-class staged_evsm {
- public:
-  explicit staged_evsm(const configuration& how)
-      : how_(how), four_(how.method == technique::evsm4), constants_(constants_of(how)) {}
-
-  int channels() const { return four_ ? 4 : 2; }
-  void begin(const interval&) {}
-  template <class Keep>
-  void fill(const image<float>& depth, int y, std::span<V> row, Keep) const {
-    const auto count = static_cast<std::size_t>(channels());
-    positive_warp_row<V>(depth.row(y), constants_, row, count);
-    if (four_) negative_warp_row<V>(depth.row(y), constants_, row, count);
-    for (std::size_t i = 0; i < row.size(); i += 2) row[i + 1] = row[i] * row[i];
-    if (how_.slope_term) add_evsm_slope<V>(depth, y, constants_, count, row);
-  }
-  V light(std::span<const V> m, const V& t) const {
-    const V bound = evsm_positive_bound(m[0], m[1], t, constants_, how_.min_variance);
-    if (!four_) return bound;
-    return evsm_bound(bound, evsm_negative_bound(m[2], m[3], t, constants_, how_.min_variance));
-  }
-  shading_input shading(const std::vector<double>&, double) const { return {}; }
-
- private:
-  static evsm_constants constants_of(const configuration& how) {
-    const double negative = how.method == technique::evsm4 ? how.negative_exponent : how.exponent;
-    try {
-      return evsm_constants_for(how.exponent, negative, storage_named(how.format).format,
-                                how.format);
-    } catch (const std::invalid_argument& e) {
-      throw usage_error(e.what());
-    }
-  }
-  const configuration& how_;
-  bool four_;
-  evsm_constants constants_;
-};
-
-bool is_variance(technique t) { return t == technique::vsm || t == technique::lvsm; }
 bool relaxed(const configuration& how) {
   return how.method == technique::lvsm && how.layers > 1 && how.splits == split_rule::lloyd;
 }
 
 void refuse_uncovered(const configuration& how, const stage_choices& choices) {
   if (how.exact()) throw usage_error("stages in a format need a format, not exact: unorm16, say");
-  if (!is_variance(how.method) && how.method != technique::evsm2 &&
-      how.method != technique::evsm4) {
-    throw usage_error("stages of " + std::string(name_of(how.method)) +
-                      " cannot be made exact one by one: use vsm, lvsm, evsm2 or evsm4");
-  }
+  require_stages(how);
   if (how.lookup != layer_lookup::own || how.direct_index || how.noise_floor || how.powered()) {
     throw usage_error(
         "stages are compared for one layer a receiver under one floor: leave out --lookup, "
@@ -113,9 +47,10 @@ void refuse_uncovered(const configuration& how, const stage_choices& choices) {
         "stages are compared with Lloyd's splits at rest, in exact sums: leave out the options "
         "--lloyd-* and --min-width");
   }
-  if (choices.shading && (!is_variance(how.method) || shading_in(*choices.shading) == nullptr)) {
+  if (choices.shading &&
+      (!stores_variance(how.method) || shading_in(*choices.shading) == nullptr)) {
     throw usage_error(std::string("shading can be done in ") + shading_arithmetics +
-                      ", for vsm and lvsm");
+                      ", for vsm, savsm and lvsm");
   }
 }
 
@@ -143,25 +78,28 @@ std::vector<double> unrounded_splits(const frame& scene, int layers) {
   return {full.begin() + 1, full.end() - 1};
 }
 
-template <class T, template <class> class Technique>
-void run_in(const frame& scene, const configuration& how, const stage_choices& choices,
-            const storage_format& storage, const lookup& look, const layer_table& layers,
-            int fraction_bits, int threads, cell& result) {
-  staged_engine<T, Technique> engine(scene, how, choices, storage, look, fraction_bits, threads);
-  run_staged_layers(engine, scene, layers, threads, result);
-}
-
 }  // namespace
+
+void require_stages(const configuration& how) {
+  if (function_of(how.method) == nullptr) {
+    throw usage_error("stages of " + std::string(name_of(how.method)) +
+                      " cannot be made exact one by one: use vsm, savsm, lvsm, evsm2 or evsm4");
+  }
+}
 
 std::vector<stage> stages_of(const configuration& how) {
   std::vector<stage> all;
+  const bool filtered = blurs_its_map(how.method);
   if (relaxed(how)) all.push_back(stage::splits);
   all.push_back(stage::store);
   if (how.filtered.msaa > 1) all.push_back(stage::resolve);
-  if (how.blurred()) all.push_back(stage::blur);
-  if (how.filter == texel_filter::trilinear) all.push_back(stage::mips);
-  if (how.filter == texel_filter::bilinear && how.max_anisotropy == 1)
+  if (filtered && how.blurred()) all.push_back(stage::blur);
+  if (filtered && how.filter == texel_filter::trilinear) all.push_back(stage::mips);
+  if (filtered && how.filter == texel_filter::bilinear && how.max_anisotropy == 1)
     all.push_back(stage::weights);
+  if (how.method == technique::savsm && !how.exact() &&
+      storage_named(how.format).format.kind == family::binary)
+    all.push_back(stage::sums);
   all.push_back(stage::filter);
   all.push_back(stage::shading);
   return all;
@@ -184,17 +122,16 @@ cell run_staged(const frame& scene, const configuration& asked, const stage_choi
   cell result;
   result.splits = layers.splits;
   result.layer = layers.own;
-  const lookup look = lookup_of(how, effects);
-  const int fractions = effects.simulates("blur fractions") ? how.filtered.fraction_bits : 0;
-  const auto run = [&]<class T>(T) {
-    if (is_variance(how.method)) {
-      run_in<T, staged_variance>(scene, how, choices, storage, look, layers, fractions, threads,
-                                 result);
-    } else {
-      run_in<T, staged_evsm>(scene, how, choices, storage, look, layers, fractions, threads, result);
-    }
-  };
-  storage.wide ? run(double{}) : run(float{});
+  const staged_run run{scene,
+                       how,
+                       choices,
+                       storage,
+                       layers,
+                       lookup_of(how, effects),
+                       effects.simulates("blur fractions") ? how.filtered.fraction_bits : 0,
+                       threads,
+                       result};
+  function_of(how.method)(run);
   return result;
 }
 

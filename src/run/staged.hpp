@@ -1,50 +1,31 @@
-// The engine behind run_staged(): each stage in its arithmetic.
+// The engine behind run_staged() for maps that are filtered as they are: each stage in its
+// arithmetic.
 #pragma once
 
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "bitshade/shadow/certified.hpp"
-#include "bitshade/shadow/chebyshev.hpp"
-#include "bitshade/shadow/layers.hpp"
-#include "bitshade/shadow/moments.hpp"
 #include "bitshade/texture/trilinear.hpp"
-#include "run/lookup.hpp"
 #include "run/map_stages.hpp"
-#include "run/parallel.hpp"
-#include "run/shading_arithmetic.hpp"
-#include "run/staged_image.hpp"
-#include "run/stages.hpp"
-#include "run/storage.hpp"
+#include "run/staged_base.hpp"
 
 namespace bitshade {
 
-/// Technique: a template over the number with channels(), begin(layer), fill(depth, y, row, keep),
-/// light(values, t) and, for emulated shading, shading(values, t), the same as plain numbers.
 template <class T, template <class> class Technique>
-class staged_engine {
+class staged_engine : public staged_base<T, Technique> {
+  using base = staged_base<T, Technique>;
+  using base::choices_, base::fraction_bits_, base::has, base::how_, base::look_, base::scene_,
+      base::storage_, base::threads_;
+
  public:
-  staged_engine(const frame& scene, const configuration& how, const stage_choices& choices,
-                const storage_format& storage, const lookup& look, int fraction_bits, int threads)
-      : scene_(scene),
-        how_(how),
-        choices_(choices),
-        storage_(storage),
-        look_(look),
-        fraction_bits_(fraction_bits),
-        threads_(threads),
-        native_(how),
-        exact_(how) {
-    if (choices.shading) shade_ = shading_in(*choices.shading);
-  }
+  using base::base;
 
   void generate(const interval& layer) {
-    native_.begin(layer);
-    exact_.begin(layer);
-    staged_image<T> texels = resolved();
+    this->begin(layer);
+    staged_image<T> texels = this->resolved();
     if (how_.blurred()) blur(texels);
     chain_.clear();
     chain_.push_back(std::move(texels));
@@ -69,126 +50,16 @@ class staged_engine {
     return all;
   }
 
-  std::vector<staged_exact> blended(const std::vector<staged_exact>& near,
-                                    const std::vector<staged_exact>& far, const receiver& r,
-                                    double split) const {
-    std::vector<staged_exact> all;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      all.push_back(in_shading([&](auto zero) {
-        using V = decltype(zero);
-        const V share = transition_share(clamp_depth(V(r.t)), split, how_.overlap);
-        return lerp(staged_value<V>(near[i]), staged_value<V>(far[i]), share);
-      }));
-    }
-    return all;
-  }
-  /// Less bleeding for each light, then their mean.
-  double finished(const std::vector<staged_exact>& lights) const {
-    const double alpha = on_split_grid(how_.bleeding_reduction);
-    if (alpha == 0 && lights.size() == 1) return lights.front().nearest();
-    return in_shading([&](auto zero) {
-             using V = decltype(zero);
-             const auto reduced = [&](const staged_exact& p) {
-               const V light = staged_value<V>(p);
-               return alpha == 0 ? light : reduce_bleeding(light, static_cast<V>(alpha));
-             };
-             V sum = reduced(lights.front());
-             for (std::size_t i = 1; i < lights.size(); ++i) sum = sum + reduced(lights[i]);
-             return lights.size() == 1 ? sum : sum / V(static_cast<int>(lights.size()));
-           })
-        .nearest();
-  }
-
  private:
   staged_exact light(const receiver& r) const {
-    std::vector<T> native(static_cast<std::size_t>(native_.channels()));
+    std::vector<T> native(static_cast<std::size_t>(this->channels()));
     std::vector<staged_exact> exact(native.size());
     if (has(stage::filter)) {
       filter(r, std::span<const image<T>>(natives_), std::span<T>(native));
-      for (std::size_t c = 0; c < native.size(); ++c)
-        exact[c] = staged_value<staged_exact>(native[c]);
     } else {
       filter(r, std::span<const image<staged_exact>>(exacts_), std::span<staged_exact>(exact));
-      for (std::size_t c = 0; c < native.size(); ++c) native[c] = staged_value<T>(exact[c]);
     }
-    if (!has(stage::shading)) {
-      return exact_.light(std::span<const staged_exact>(exact), clamp_depth(staged_exact(r.t)));
-    }
-    if (shade_ != nullptr) {
-      std::vector<double> values;
-      for (const auto& v : exact) values.push_back(v.nearest());
-      return staged_exact(shade_(native_.shading(values, static_cast<double>(r.t))));
-    }
-    return staged_value<staged_exact>(
-        native_.light(std::span<const T>(native), clamp_depth(static_cast<T>(r.t))));
-  }
-
-  bool has(stage s) const { return choices_.in_format.has(s); }
-
-  /// What is combined after shading is so in its arithmetic.
-  template <class F>
-  staged_exact in_shading(F f) const {
-    return has(stage::shading) ? staged_value<staged_exact>(f(T{})) : f(staged_exact());
-  }
-
-  /// All rows of a new image, stored where they are native.
-  template <class V, class Row>
-  image<V> pass(int width, int height, int channels, Row make) const {
-    image<V> out(width, height, channels);
-    for_rows(threads_, height, [&](int y) {
-      make(y, out.row(y));
-      if constexpr (std::is_same_v<V, T>) round_row(storage_, out.row(y));
-    });
-    return out;
-  }
-
-  /// The texels of one depth map.
-  staged_image<T> stored(const image<float>& depth) const {
-    staged_image<T> texels;
-    const int channels = native_.channels();
-    texels.in_format = has(stage::store);
-    if (texels.in_format) {
-      texels.native = pass<T>(depth.width, depth.height, channels, [&](int y, std::span<T> row) {
-        native_.fill(depth, y, row, [&](std::span<T> r) { round_row(storage_, r); });
-      });
-    } else {
-      texels.exact = pass<staged_exact>(
-          depth.width, depth.height, channels, [&](int y, std::span<staged_exact> row) {
-            exact_.fill(depth, y, row, [](std::span<staged_exact>) {});
-          });
-    }
-    return texels;
-  }
-
-  /// The map of the texels' centres, or the mean of its samples.
-  staged_image<T> resolved() const {
-    std::vector<staged_image<T>> samples;
-    for (const image<float>* depth : depth_maps(scene_, look_.samples)) {
-      samples.push_back(stored(*depth));
-    }
-    if (samples.size() == 1) return std::move(samples.front());
-    staged_image<T> out;
-    out.in_format = has(stage::resolve);
-    const auto run = [&]<class V>(std::vector<image<V>> all) {
-      return pass<V>(all[0].width, all[0].height, all[0].channels,
-                     [&](int y, std::span<V> row) { resolve_row<V>(all, y, row); });
-    };
-    std::vector<image<T>> native;
-    std::vector<image<staged_exact>> exact;
-    for (auto& sample : samples) {
-      if (out.in_format) {
-        native.push_back(sample.as_native());
-      } else {
-        exact.push_back(sample.as_exact());
-      }
-      sample = {};
-    }
-    if (out.in_format) {
-      out.native = run(std::move(native));
-    } else {
-      out.exact = run(std::move(exact));
-    }
-    return out;
+    return this->light_of(std::move(native), std::move(exact), r);
   }
 
   void blur(staged_image<T>& texels) const {
@@ -218,7 +89,7 @@ class staged_engine {
     staged_image<T> to;
     to.in_format = has(stage::mips);
     const auto run = [&]<class V>(const image<V>& in) {
-      return pass<V>(width, height, in.channels,
+      return this->template pass<V>(width, height, in.channels,
                      [&](int y, std::span<V> row) { downsample_row<V>(in, map_mips, y, row); });
     };
     if (to.in_format) {
@@ -286,47 +157,9 @@ class staged_engine {
     return sum / staged_exact(static_cast<int>(probes.offsets.size()));
   }
 
-  const frame& scene_;
-  const configuration& how_;
-  const stage_choices& choices_;
-  const storage_format& storage_;
-  const lookup look_;
-  const int fraction_bits_;
-  const int threads_;
-  Technique<T> native_;
-  Technique<staged_exact> exact_;
-  shading_function shade_ = nullptr;
   std::vector<staged_image<T>> chain_;
   std::vector<image<T>> natives_;
   std::vector<image<staged_exact>> exacts_;
 };
-
-/// All layers, as run_layers() does, with lights that remember which arithmetic they came from.
-template <class Engine>
-void run_staged_layers(Engine& engine, const frame& scene, const layer_table& table, int threads,
-                       cell& result) {
-  result.visibility.assign(scene.receivers.size(), std::numeric_limits<double>::quiet_NaN());
-  std::vector<std::vector<staged_exact>> waiting(table.blends.empty() ? 0 : scene.receivers.size());
-  for (std::size_t i = 0; i < table.intervals.size(); ++i) {
-    const auto& users = table.users[i];
-    if (users.empty()) continue;
-    engine.generate(table.intervals[i]);
-    for_ranges(threads, users.size(), 512, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) {
-        const std::uint32_t at = users[k];
-        const receiver& r = scene.receivers[at];
-        auto p = engine.lights(r);
-        if (table.blends.empty() || table.blends[at].near == table.blends[at].far) {
-          result.visibility[at] = engine.finished(p);
-        } else if (static_cast<int>(i) == table.blends[at].near) {
-          waiting[at] = std::move(p);
-        } else {
-          const double split = table.splits[static_cast<std::size_t>(table.blends[at].far)];
-          result.visibility[at] = engine.finished(engine.blended(waiting[at], p, r, split));
-        }
-      }
-    });
-  }
-}
 
 }  // namespace bitshade

@@ -1,27 +1,17 @@
-#include <algorithm>
 #include <limits>
-#include <stdexcept>
-#include <type_traits>
 #include <vector>
 
-#include "bitshade/arithmetic/bulk.hpp"
-#include "bitshade/formats/limits.hpp"
 #include "bitshade/texture/sat.hpp"
 #include "io/error.hpp"
 #include "run/engines.hpp"
 #include "run/map_stages.hpp"
 #include "run/parallel.hpp"
-#include "run/summed_area.hpp"
+#include "run/summed_area_tables.hpp"
 #include "run/variance.hpp"
 
 namespace bitshade {
 
 namespace {
-
-template <class T>
-T sum_over(const summed_area<T>& sums, const texel_box& box, int channel) {
-  return box_sum(sums, box.x0, box.y0, box.x1 - 1, box.y1 - 1, channel);
-}
 
 /// Shades every receiver by `mean`, which gives one channel's mean over a box.
 template <class T, class Mean>
@@ -42,18 +32,6 @@ void shade(run_context& run, const variance_technique<T>& technique, Mean mean) 
   });
 }
 
-/// A row's codes in the type of their sums.
-template <class T, class Code>
-void encode_row(const storage_format& storage, std::span<const T> row, std::span<Code> codes) {
-  if constexpr (std::is_same_v<T, float> && sizeof(Code) > 4) {
-    std::vector<std::uint32_t> narrow(row.size());  // binary32 never computes for wider codes
-    bulk::encode(storage.format, storage.rounding, row, std::span(narrow));
-    std::copy(narrow.begin(), narrow.end(), codes.begin());
-  } else {
-    bulk::encode(storage.format, storage.rounding, row, codes);
-  }
-}
-
 /// Norms and fixed point: sums of codes in wrapping integers, which lose nothing.
 template <class T, class Code>
 void run_codes(run_context& run, const image<T>& texels, const variance_technique<T>& technique) {
@@ -70,7 +48,7 @@ void run_codes(run_context& run, const image<T>& texels, const variance_techniqu
   summed_area<Code> sums;
   {
     const stopwatch watch(run.result.map_seconds);
-    sums = make_sat(std::move(codes), sat_order::running, sat_offset::none, [](std::span<Code>) {});
+    sums = running_table(std::move(codes), [](std::span<Code>) {});
   }
   const double unit = decode(format, 1);
   shade(run, technique, [&](const texel_box& box, int c) {
@@ -86,19 +64,12 @@ void run_sums(run_context& run, image<T> texels, const variance_technique<T>& te
                       " grows with the map: leave out --noise-floor, or take a format of codes, "
                       "such as unorm16, whose sums lose nothing");
   }
-  const double most = decode(run.storage.format, max_bits(run.storage.format));
-  try {
-    require_sat_fits(texels.width, texels.height, 1.0, most);
-  } catch (const std::invalid_argument&) {
-    throw usage_error("a summed-area table of " + std::to_string(texels.width) + " x " +
-                      std::to_string(texels.height) + " texels overflows " + run.how.format +
-                      ": ask for a smaller --size, or a format of wider range such as binary32");
-  }
+  require_sums_fit(texels.width, texels.height, run.storage, run.how.format);
   summed_area<T> sums;
   double rounding = 0;
   {
     const stopwatch watch(run.result.map_seconds);
-    sums = make_sat(std::move(texels), sat_order::running, sat_offset::none, [&](std::span<T> row) {
+    sums = running_table(std::move(texels), [&](std::span<T> row) {
       if (!run.storage.code) return;
       const stopwatch part(rounding);
       round_row(run.storage, row);

@@ -28,6 +28,21 @@ TEST_CASE("blame names a guilty stage and leaves a map of each") {
   CHECK(run_bitshade({"blame", "garden", "--weight-bits", "99"}).status == 2);
 }
 
+TEST_CASE("blame tells the store of a summed-area table from its running sums") {
+  const temporary_folder folder;
+  const auto done =
+      run_bitshade({"blame", "garden", "--size", "64", "--view", "48x30", "--json", "--technique",
+                    "savsm", "--format", "half", "--msaa", "2", "--out", folder.path().string()});
+  CAPTURE(done.err);
+  REQUIRE(done.status == 0);
+  std::string stages;
+  for (const auto& s : json::parse(done.out)["stages"]) stages += s["stage"].get<std::string>() + " ";
+  CHECK(stages == "store resolve sums filter shading ");
+  const auto refused = run_bitshade({"blame", "garden", "--technique", "savsm", "--weight-bits", "8"});
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("savsm") != std::string::npos);
+}
+
 TEST_CASE("certify prints each certificate narrower than the one before") {
   const temporary_folder folder;
   const auto done = run_bitshade({"certify", "slope", "--size", "64", "--view", "48x30", "--json",

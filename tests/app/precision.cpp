@@ -1,5 +1,7 @@
 // `bitshade precision` as its user sees it: a slope of -2, a joint chart, a cure for each mistake.
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "support/catch.hpp"
@@ -48,11 +50,37 @@ TEST_CASE("precision on a scene finds no more bits than the bound asks for") {
   CAPTURE(done.err);
   REQUIRE(done.status == 0);
   const json found = json::parse(done.out);
-  CHECK(found["on_scene"].size() == 12);  // two of four stages of vsm and lvsm each, and of EVSM
+  // Two of four stages of vsm and lvsm each, and of EVSM; store, sums, shading and all of savsm.
+  CHECK(found["on_scene"].size() == 18);
   for (const auto& s : found["on_scene"]) {
     CAPTURE(s.dump());
     CHECK(s["found_bits"].get<int>() > 0);
-    CHECK(s["found_bits"].get<int>() <= s["predicted_bits"].get<int>());
+    if (s["stage"] != "all") CHECK(s["found_bits"].get<int>() <= s["predicted_bits"].get<int>());
     CHECK(s["error"].get<double>() <= 1.0 / 255);
   }
+}
+
+TEST_CASE("precision tells a summed-area table's store from its sums, and searches all of them") {
+  const auto done =
+      run_bitshade({"precision", "garden", "--size", "64", "--view", "32x20", "--techniques", "savsm",
+                    "--min-variance", "1e-4", "--json"});
+  CAPTURE(done.err);
+  REQUIRE(done.status == 0);
+  std::map<std::string, int> bits;
+  for (const auto& s : json::parse(done.out)["on_scene"])
+    bits[s["stage"].get<std::string>() + " " + s["unit"].get<std::string>()] = s["found_bits"];
+  CAPTURE(done.out);
+  REQUIRE(bits.size() == 6);
+  // 4096 texels: sums need more bits than what they are made of, and all of them what sums need.
+  CHECK(bits["sums significand"] > bits["store significand"] + 4);
+  CHECK(bits["all significand"] >= bits["sums significand"]);
+  CHECK(bits["all significand"] <= bits["sums significand"] + 1);
+  CHECK(std::abs(bits["all unorm"] - bits["store unorm"]) <= 1);
+
+  const auto refused = run_bitshade({"precision", "garden", "--techniques", "savsm,pcf"});
+  CHECK(refused.status == 2);
+  CHECK(refused.err.find("stages of pcf") != std::string::npos);
+  const auto idle = run_bitshade({"precision", "--techniques", "savsm"});
+  CHECK(idle.status == 2);
+  CHECK(idle.err.find("give a SCENE") != std::string::npos);
 }

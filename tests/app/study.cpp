@@ -224,3 +224,37 @@ TEST_CASE("a reader that leaves and a full device are told apart", "[app]") {
   CHECK(left.status == 0);
   CHECK(left.err.empty());
 }
+
+TEST_CASE("study --json holds what --blame and --precision found, as results.json does") {
+  const temporary_folder folder;
+  const auto done =
+      run_bitshade({"study", "garden", "--size", "48", "--view", "32x20", "--techniques",
+                    "vsm,savsm", "--formats", "half", "--min-variance", "1e-4", "--blame",
+                    "--precision", "--json", "--out", folder.path().string()});
+  CAPTURE(done.err);
+  REQUIRE(done.status == 0);
+  const json found = json::parse(done.out);
+  CHECK(json::parse(contents(folder.path() / "results.json")) == found);
+  const json& parts = found["inputs"][0]["parts"];
+  // Sums of 2304 texels in half drift farther than anything that a vsm does.
+  CHECK(parts["blame"]["configuration"].get<std::string>().starts_with("savsm"));
+  double shares = 0;
+  std::string stages;
+  for (const auto& s : parts["blame"]["stages"]) {
+    shares += s["share"].get<double>();
+    stages += s["stage"].get<std::string>() + " ";
+  }
+  CHECK(shares == Approx(1));
+  CHECK(stages == "store sums filter shading ");
+  CHECK(parts["blame"]["whole"]["rmse"] == found["rows"][1]["format_error_rmse"]);
+  CHECK(parts["precision"]["curves"].size() == 2);
+  CHECK(parts["precision"]["on_scene"].size() == 7);  // the vsm's store, six of savsm
+  CHECK(parts["precision"]["command"].get<std::string>().find("--techniques lvsm,savsm") !=
+        std::string::npos);
+
+  const auto plain = run_bitshade({"study", "garden", "--size", "48", "--view", "32x20",
+                                   "--techniques", "vsm", "--formats", "half", "--json", "--out",
+                                   folder.path().string()});
+  REQUIRE(plain.status == 0);
+  CHECK_FALSE(json::parse(plain.out)["inputs"][0].contains("parts"));
+}

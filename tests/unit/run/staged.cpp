@@ -74,6 +74,20 @@ std::vector<configuration> configurations() {
   c.layers = 2;
   c.warping = layer_warp::unclamped;
   all.push_back(c);
+  // Rectangles of sums.
+  c = {};
+  c.method = technique::savsm;
+  all.push_back(c);
+  c.smallest_box = 1;
+  c.slope_term = true;
+  all.push_back(c);
+  c.smallest_box = 3;
+  c.filtered.msaa = 4;
+  c.bleeding_reduction = 0.25;
+  c.second = second_moment::square_of_stored;
+  all.push_back(c);
+  c.second = second_moment::centred;
+  all.push_back(c);
   return all;
 }
 
@@ -83,7 +97,10 @@ TEST_CASE("with every stage in the format a staged run is the plain run, bit for
   const auto scene =
       test::with_samples(test::with_samples(test::small_frame(16, 16, 60, 21), 2, 26), 4, 27);
   for (auto how : configurations()) {
-    for (const auto* format : {"unorm16", "half", "binary32", "e5m7"}) {
+    std::vector<const char*> formats{"unorm16", "half", "binary32", "e5m7"};
+    if (how.method == technique::savsm)  // codes of every type, and sums in binary64
+      formats.insert(formats.end(), {"unorm8", "unorm32", "unorm40", "snorm16", "ufixed2.14", "binary64"});
+    for (const auto* format : formats) {
       how.format = format;
       CAPTURE(how.key());
       CHECK(same_bits(run_staged(scene, how, {}).visibility, plain(scene, how).visibility));
@@ -97,10 +114,12 @@ TEST_CASE("with no stage in the format a staged run is the exact run, bit for bi
   for (auto how : configurations()) {
     auto exact = how;
     exact.format = "exact";
-    how.format = "half";
-    CAPTURE(how.key());
-    CHECK(same_bits(run_staged(scene, how, {stage_set::none(), 0, {}}).visibility,
-                    plain(scene, exact).visibility));
+    for (const auto* format : {"half", "unorm16"}) {
+      how.format = format;
+      CAPTURE(how.key());
+      CHECK(same_bits(run_staged(scene, how, {stage_set::none(), 0, {}}).visibility,
+                      plain(scene, exact).visibility));
+    }
   }
 }
 
@@ -157,11 +176,48 @@ TEST_CASE("samples are resolved in a stage of their own, and a box of eight bits
   CHECK(b.stages[1].alone.rmse > 100 * b.stages[4].alone.rmse);
 }
 
+TEST_CASE("running sums are a stage where their store loses something, and the guilty one in half") {
+  const auto scene = test::small_frame(64, 48, 200, 26);
+  configuration how;
+  how.method = technique::savsm;
+  how.format = "half";
+  const blame b = blame_of(scene, how, {});
+  REQUIRE(b.stages.size() == 4);
+  CHECK(b.stages[1].which == stage::sums);
+  CHECK(b.guiltiest().which == stage::sums);
+  CHECK(b.stages[1].alone.rmse > 10 * b.stages[0].alone.rmse);
+  // Of exact corners a difference in binary32 costs what its own two roundings cost.
+  CHECK(b.stages[2].which == stage::filter);
+  CHECK(b.stages[2].alone.rmse < 1e-3 * b.stages[1].alone.rmse);
+  CHECK(b.stages[2].alone.rmse > 0);
+  CHECK(b.stages[1].without.rmse < b.whole.rmse / 10);
+
+  // Sums of codes lose nothing: what is left is the store's, and the arithmetic's.
+  how.format = "unorm8";
+  const blame codes = blame_of(scene, how, {});
+  REQUIRE(codes.stages.size() == 3);
+  CHECK(codes.stages[0].which == stage::store);
+  CHECK(codes.stages[1].which == stage::filter);
+  CHECK(codes.stages[0].alone.rmse > 100 * codes.stages[1].alone.rmse);
+  CHECK(codes.stages[0].alone.rmse == Approx(codes.whole.rmse).epsilon(0.01));
+}
+
+TEST_CASE("sums that overflow their format are refused, whatever stages are exact") {
+  const auto scene = test::small_frame(300, 219, 4, 27);
+  configuration how;
+  how.method = technique::savsm;
+  how.format = "half";
+  CHECK_THROWS_AS(run_staged(scene, how, {}), usage_error);
+  CHECK_THROWS_AS(run_staged(scene, how, {stage_set::only(stage::store), 0, {}}), usage_error);
+}
+
 TEST_CASE("stages that cannot be taken apart are refused with a cure") {
   const auto scene = test::small_frame(8, 8, 4, 25);
   configuration how;
-  how.method = technique::csm;
-  CHECK_THROWS_AS(run_staged(scene, how, {}), usage_error);
+  for (const technique method : {technique::pcf, technique::hard, technique::deep}) {
+    how.method = method;
+    CHECK_THROWS_AS(run_staged(scene, how, {}), usage_error);
+  }
   how = {};
   how.format = "exact";
   CHECK_THROWS_AS(run_staged(scene, how, {}), usage_error);
