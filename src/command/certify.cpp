@@ -99,10 +99,10 @@ void add_certify(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "certify",
       "Intervals that certainly hold the exact visibility\n"
-      "Says how far each pixel of a vsm or lvsm in a format can lie from exact arithmetic, from "
-      "the "
-      "format's own numbers and without an exact run: from the format alone, from the moments as "
-      "stored, and from the roundings that really happened. Draws the widths as PNG.");
+      "Says how far each pixel of a vsm, savsm or lvsm in a format can lie from exact arithmetic, "
+      "from the format's own numbers and without an exact run: from the format alone, from the "
+      "moments as stored, and from the roundings that really happened, those of a summed-area "
+      "table's sums included. Draws the widths as PNG.");
   command->add_option("SCENE", given->scene, scene_argument_help())->capture_default_str();
   study_options initial;
   initial.techniques = "vsm";

@@ -258,7 +258,7 @@ void add_precision(CLI::App& app) {
                    "Filter radius times receiver slope, for the overlap of --joint")
       ->capture_default_str()
       ->option_text("N");
-  command->add_option("--exponent", o->exponent, "c of EVSM")
+  command->add_option("--exponent", o->exponent, "c of ESM and EVSM")
       ->capture_default_str()
       ->option_text("N");
   command->add_flag("--adversarial", o->adversarial, "The search on footprints, with a SCENE too");

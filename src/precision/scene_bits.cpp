@@ -18,7 +18,11 @@ namespace {
 constexpr std::array<const char*, 3> unit_names{"unorm", "significand", "fraction"};
 
 bool exponential(const configuration& how) {
-  return how.method == technique::evsm2 || how.method == technique::evsm4;
+  return how.method == technique::esm || how.method == technique::evsm2 ||
+         how.method == technique::evsm4;
+}
+bool bounded(const configuration& how, const scene_search& search) {
+  return search.which && how.method != technique::msm;
 }
 bool stores(stage s) {
   return s == stage::store || s == stage::resolve || s == stage::blur || s == stage::mips;
@@ -59,7 +63,7 @@ summed_rectangle narrowest_rectangle(const frame& scene, const configuration& ho
 
 int predicted_bits(const frame& scene, const configuration& how, const scene_search& search,
                    double tolerated) {
-  if (!search.which) return 0;
+  if (!bounded(how, search)) return 0;
   const stage s = *search.which;
   precision_question q;
   q.tolerated = tolerated;
@@ -81,6 +85,16 @@ int predicted_bits(const frame& scene, const configuration& how, const scene_sea
       r.arithmetic = unit_roundoff(b <= 24 ? 24 : 53);
       r.store = unit_roundoff(b);
       return summed_error_at(r, floor);
+    });
+  }
+  if (how.method == technique::esm) {
+    return fewest_bits(tolerated, 53,
+                       [&](int b) { return esm_error_at(unit_roundoff(b), q.roundings); });
+  }
+  if (how.method == technique::csm) {
+    return fewest_bits(tolerated, 53, [&](int b) {
+      return csm_error_at(moment_error(1 / static_cast<double>((1ULL << b) - 1), q.roundings),
+                          how.terms);
     });
   }
   if (exponential(how)) {
@@ -141,7 +155,8 @@ scene_bits search_scene(const frame& scene, const configuration& asked, const sc
   r.stage = search.which ? name_of(*search.which) : "all";
   r.unit = unit_names[static_cast<std::size_t>(search.unit)];
   r.layers = how.method == technique::lvsm ? how.layers : 1;
-  r.min_variance = how.min_variance;
+  r.min_variance = uses_floor(how.method) ? how.min_variance : 0;
+  r.bounded = bounded(how, search);
   r.predicted = predicted_bits(scene, how, search, tolerated);
   const int most = widest(how, search);
   int low = 1, high = most + 1;  // low breaks, high keeps or is beyond

@@ -26,15 +26,16 @@ struct scene_bits {
   std::string stage;  ///< "all": every stage in the format
   std::string unit;
   int layers = 1;
-  double min_variance = 0;
-  int predicted = 0;       ///< for every footprint; 0: no bound up to the widest looked at, or none
+  double min_variance = 0;  ///< 0: the technique has no floor
+  bool bounded = true;     ///< whether a bound predicts; not of all stages, nor of four moments
+  int predicted = 0;       ///< for every footprint; 0: more than the widest looked at
   int found = 0;           ///< on this scene; 0: the widest does not suffice
   double error = 0;        ///< largest format error with `found` bits
   double error_below = 0;  ///< and with one bit fewer
 };
 
 /// The searches that a configuration calls for, its format not read: stores (texels, resolve, blur,
-/// mips) in unorms, of EVSM in significands, of savsm in both; the running sums of savsm in
+/// mips) in unorms, of ESM and EVSM in significands, of savsm in both; the running sums of savsm in
 /// significands, since sums of unorms lose nothing; weights in fraction bits; shading of variances
 /// in significands; and all stages of savsm in unorms and in floats. The arithmetic of filters has
 /// no format of its own.

@@ -81,8 +81,9 @@ std::string scene_text(const precision_findings& found) {
   std::vector<text_line> lines{
       {"name", "stage", "N", "floor", "bits of", "bound", "found", "error", "- 1 bit"}};
   for (const scene_bits& s : found.on_scene) {
-    lines.push_back({s.technique, s.stage, std::to_string(s.layers), brief(s.min_variance, 2),
-                     s.unit, s.stage == "all" ? "-" : bits_or_none(s.predicted),
+    lines.push_back({s.technique, s.stage, std::to_string(s.layers),
+                     s.min_variance == 0 ? "-" : brief(s.min_variance, 2), s.unit,
+                     s.bounded ? bits_or_none(s.predicted) : "-",
                      bits_or_none(s.found), brief(s.error),
                      brief(s.error_below)});
   }
@@ -167,12 +168,13 @@ nlohmann::ordered_json precision_json(const precision_findings& found) {
     all["scene"] = found.scene;
     all["on_scene"] = ordered_json::array();
     for (const scene_bits& s : found.on_scene) {
+      const ordered_json predicted = s.bounded ? ordered_json(s.predicted) : ordered_json();
       all["on_scene"].push_back({{"technique", s.technique},
                                  {"stage", s.stage},
                                  {"layers", s.layers},
                                  {"min_variance", s.min_variance},
                                  {"unit", s.unit},
-                                 {"predicted_bits", s.predicted},
+                                 {"predicted_bits", predicted},
                                  {"found_bits", s.found},
                                  {"error", s.error},
                                  {"error_below", s.error_below}});
@@ -209,13 +211,15 @@ std::string precision_csv(const precision_findings& found) {
             std::to_string(p.predicted_whole), std::to_string(p.found_whole)});
     }
   }
-  const auto whole = [&](const std::string& where, const auto& s, double deviation) {
+  const auto whole = [&](const std::string& where, const auto& s, double deviation,
+                         const std::string& predicted) {
     line({where, s.technique, s.stage, std::to_string(s.layers), shortest(deviation), "1", s.unit,
-          std::to_string(s.predicted), std::to_string(s.found), std::to_string(s.predicted),
-          std::to_string(s.found)});
+          predicted, std::to_string(s.found), predicted, std::to_string(s.found)});
   };
-  for (const stage_bits& s : found.stages) whole("footprints", s, s.floor_deviation);
-  for (const scene_bits& s : found.on_scene) whole(found.scene, s, std::sqrt(s.min_variance));
+  for (const stage_bits& s : found.stages)
+    whole("footprints", s, s.floor_deviation, std::to_string(s.predicted));
+  for (const scene_bits& s : found.on_scene)
+    whole(found.scene, s, std::sqrt(s.min_variance), s.bounded ? std::to_string(s.predicted) : "");
   return out;
 }
 

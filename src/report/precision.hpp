@@ -27,7 +27,8 @@ struct precision_findings {
 /// Tables of at most 80 columns, with sentences.
 std::string precision_text(const precision_findings& found);
 nlohmann::ordered_json precision_json(const precision_findings& found);
-/// One line a question: technique, stage, layers, floor, roundings, predicted and found.
+/// One line a question: technique, stage, layers, floor, roundings, predicted (empty where no bound
+/// predicts) and found.
 std::string precision_csv(const precision_findings& found);
 /// Tables and plots for a report: bits against layers, stages, the joint chart.
 std::vector<report_part> precision_parts(const precision_findings& found,

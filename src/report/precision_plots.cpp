@@ -93,21 +93,23 @@ report_part curves_part(const precision_findings& found, const std::string& comm
 
 report_part stages_part(const precision_findings& found) {
   std::string rows;
-  const auto add = [&](const std::string& where, const auto& s, double error) {
+  const auto add = [&](const std::string& where, const auto& s, bool bounded, double error) {
     rows += table_row(
         word_cell(where) + word_cell(s.technique) + word_cell(s.stage) +
         number_cell(s.layers, std::to_string(s.layers)) + word_cell(s.unit) +
-        number_cell(s.predicted, s.predicted == 0 ? "none" : std::to_string(s.predicted)) +
+        number_cell(s.predicted, !bounded           ? "-"
+                                 : s.predicted == 0 ? "none"
+                                                    : std::to_string(s.predicted)) +
         number_cell(s.found, s.found == 0 ? "none" : std::to_string(s.found)) + level_cell(error));
   };
   for (const stage_bits& s : found.stages) {
-    add("floor " + brief(s.floor_deviation * s.floor_deviation, 2), s, s.witness_error);
+    add("floor " + brief(s.floor_deviation * s.floor_deviation, 2), s, true, s.witness_error);
   }
-  for (const scene_bits& s : found.on_scene) add(found.scene, s, s.error_below);
+  for (const scene_bits& s : found.on_scene) add(found.scene, s, s.bounded, s.error_below);
   return {"Bits of each stage",
           "The fewest bits that keep the error: of a filter weight's fraction, of a significand in "
           "shading, in running sums or in an exponential map's store, of a unorm. Predicted for "
-          "every footprint, and found; for all stages together there is no bound.",
+          "every footprint, and found; no bound predicts all stages together, nor four moments.",
           sortable_table({{"where", "", true},
                           {"technique", "", true},
                           {"stage", "", true},

@@ -18,12 +18,15 @@ struct light_interval {
 ///   global    from the format alone: K roundings of half a step, the worst footprint
 ///   stored    from the stored moments, each within K half steps, and depths in [0,1]
 ///   running   from the stored moments and the roundings that really happened on their way
+///
+/// Of a summed-area table in floating point the sums' roundings count to all three; what bounds them
+/// beforehand grows with the map's texels (summed_mean_error), what happened rarely does.
 struct certificates {
   std::vector<light_interval> global, stored, running;
   int roundings = 0;
 };
 
-/// Certificates of vsm and lvsm from the format pipeline's own numbers: the map as it was stored,
+/// Certificates of vsm, savsm and lvsm from the format pipeline's own numbers: the map as it was stored,
 /// and a radius beside every moment that grows by each rounding's actual size and by a bound of the
 /// arithmetic's. No exact run is made.
 ///

@@ -37,6 +37,9 @@ void run_msm_exact(run_context& run);
 void run_summed_area_native(run_context& run);  ///< savsm
 void run_summed_area_exact(run_context& run);   ///< savsm in integers of proven width
 
+/// Exact exponentials are certified up to here: e^(2c) and e^(-2c) stay within 2^+-1000.
+inline constexpr double exact_exponent_cap = 300;
+
 /// truth_pcf(), but for the configuration's depth bias: x >= t - bias.
 std::vector<double> pcf_exact(const frame& scene, const configuration& how, int threads);
 /// The hard test of the map as it is: 1 where x >= t - bias at the nearest texel.

@@ -10,9 +10,6 @@ namespace bitshade {
 
 namespace {
 
-/// Exact exponentials are certified up to here: e^(2c) and e^(-2c) stay within 2^+-1000.
-constexpr double exact_exponent_cap = 300;
-
 struct evsm_map {
   evsm_constants constants;
   bool four = false;

@@ -5,6 +5,7 @@
 #include "bitshade/shadow/lloyd.hpp"
 #include "bitshade/shadow/moments.hpp"
 #include "io/error.hpp"
+#include "run/engines.hpp"
 #include "run/parallel.hpp"
 #include "run/shading_arithmetic.hpp"
 
@@ -25,6 +26,10 @@ run_function function_of(technique t) {
     case technique::evsm2:
     case technique::evsm4:
       return run_staged_evsm;
+    case technique::esm:
+    case technique::csm:
+    case technique::msm:
+      return run_staged_texels;
     default:
       return nullptr;
   }
@@ -41,6 +46,14 @@ void refuse_uncovered(const configuration& how, const stage_choices& choices) {
     throw usage_error(
         "stages are compared for one layer a receiver under one floor: leave out --lookup, "
         "--direct-index, --noise-floor and --bleeding-power");
+  }
+  const bool exponential = how.method == technique::esm || how.method == technique::evsm2 ||
+                           how.method == technique::evsm4;
+  const double exponent = how.method == technique::evsm4
+                              ? std::max(how.exponent, how.negative_exponent)
+                              : how.exponent;
+  if (exponential && exponent > exact_exponent_cap) {
+    throw usage_error("exact stages take exponents up to 300, not " + std::to_string(exponent));
   }
   if (relaxed(how) && (how.lloyd != lloyd_choices{} || how.min_width != 0)) {
     throw usage_error(
@@ -83,7 +96,8 @@ std::vector<double> unrounded_splits(const frame& scene, int layers) {
 void require_stages(const configuration& how) {
   if (function_of(how.method) == nullptr) {
     throw usage_error("stages of " + std::string(name_of(how.method)) +
-                      " cannot be made exact one by one: use vsm, savsm, lvsm, evsm2 or evsm4");
+                      " cannot be made exact one by one, since it compares depths and filters "
+                      "answers: use vsm, savsm, lvsm, evsm2, evsm4, esm, csm or msm");
   }
 }
 

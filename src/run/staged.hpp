@@ -16,12 +16,12 @@ namespace bitshade {
 
 template <class T, template <class> class Technique>
 class staged_engine : public staged_base<T, Technique> {
-  using base = staged_base<T, Technique>;
-  using base::choices_, base::fraction_bits_, base::has, base::how_, base::look_, base::scene_,
-      base::storage_, base::threads_;
+  using parts = staged_base<T, Technique>;
+  using parts::choices_, parts::fraction_bits_, parts::has, parts::how_, parts::look_,
+      parts::scene_, parts::storage_, parts::threads_;
 
  public:
-  using base::base;
+  using parts::parts;
 
   void generate(const interval& layer) {
     this->begin(layer);

@@ -23,6 +23,7 @@ struct staged_run {
 void run_staged_variance(const staged_run& run);     ///< vsm, lvsm
 void run_staged_summed_area(const staged_run& run);  ///< savsm
 void run_staged_evsm(const staged_run& run);         ///< evsm2, evsm4
+void run_staged_texels(const staged_run& run);       ///< esm, csm, msm
 
 /// In binary32 or binary64, as the storage asks: f(float{}) or f(double{}).
 template <class F>

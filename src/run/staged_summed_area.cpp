@@ -29,12 +29,12 @@ staged_exact exact_unit(const encoding& e) {
 /// arithmetic's sums or of exact ones.
 template <class T>
 class staged_summed_area : public staged_base<T, staged_variance> {
-  using base = staged_base<T, staged_variance>;
-  using base::has, base::how_, base::scene_, base::storage_, base::threads_;
+  using parts = staged_base<T, staged_variance>;
+  using parts::has, parts::how_, parts::scene_, parts::storage_, parts::threads_;
 
  public:
   explicit staged_summed_area(const staged_run& run)
-      : base(run),
+      : parts(run),
         floating_(run.storage.format.kind == family::binary),
         unit_(exact_unit(run.storage.format)) {
     if (floating_)

@@ -25,8 +25,8 @@ namespace bitshade {
 ///   filter   the interpolation's arithmetic; with mips or probes the weights count to it. Of a
 ///            summed-area table the differences of four corners and the division by their texels:
 ///            of corners that are exact, each of the two differences is rounded once
-///   shading  the receiver's warp, mean and variance, floor, Chebyshev, transition, reduction and
-///            the mean of several lookups
+///   shading  the receiver's warp, mean and variance, floor, Chebyshev (or what the technique makes
+///            of its values), transition, reduction and the mean of several lookups
 enum class stage : std::uint8_t {
   splits, store, resolve, blur, mips, sums, weights, filter, shading
 };
@@ -62,13 +62,13 @@ std::vector<stage> stages_of(const configuration& how);
 /// Failure  usage_error for a technique whose stages cannot be told apart, with those that can.
 void require_stages(const configuration& how);
 
-/// Runs vsm, savsm, lvsm, evsm2 or evsm4 with every stage either in the format or without a rounding that
+/// Runs a technique that filters what it stores (all but hard, pcf, deep) with every stage either in the format or without a rounding that
 /// counts (enclosures of 192 bits).
 ///
 /// With all stages in the format and no other choice, bit for bit what run_pipeline gives; with
 /// none, what it gives for `exact`, wherever an enclosure decides the last bit.
 ///
-/// Failure  usage_error for other techniques and for what the stages do not cover: --lookup,
+/// Failure  usage_error for other techniques, for exponents above 300 and for what the stages do not cover: --lookup,
 ///          --direct-index, --noise-floor, --bleeding-power, a shading arithmetic that shading_in
 ///          does not know.
 cell run_staged(const frame& scene, const configuration& how, const stage_choices& choices,

@@ -56,5 +56,5 @@ TEST_CASE("certify prints each certificate narrower than the one before") {
   CHECK(contents(found["files"]["certificate"].get<std::string>()).starts_with("\x89PNG"));
   const auto refused = run_bitshade({"certify", "slope", "--technique", "msm"});
   CHECK(refused.status == 2);
-  CHECK(refused.err.find("vsm and lvsm") != std::string::npos);
+  CHECK(refused.err.find("vsm, savsm and lvsm") != std::string::npos);
 }

@@ -26,6 +26,35 @@ constexpr double evsm_error_at(double u, int roundings, double c, double floor_d
   return bound < 1 ? bound : 1;
 }
 
+/// Largest visibility error of ESM where the exponential was rounded K times in floating point.
+///
+///   |dp| <= k p <= k,  k = (1 + u)^K - 1
+///
+/// Averages of relative errors up to k err by no more, and the clamp at 1 brings two lights no
+/// further apart.
+///
+/// Source   docs/theory.md section 11.
+constexpr double esm_error_at(double u, int roundings) {
+  double k = 0;
+  for (int i = 0; i < roundings; ++i) k = k + u + k * u;
+  k = k * detail::outward;
+  return k < 1 ? k : 1;
+}
+
+/// Largest visibility error of a convolution map whose biased terms, (1 + v)/2, are each within e.
+///
+///   |dp| <= gain 2 sum_k 2 sqrt(2) e / ((2k - 1) pi),  gain = 2
+///
+/// An error 2 e of cosine and sine turns by cos(c t) and sin(c t): sqrt(2) of it is left at most.
+///
+/// Source   docs/theory.md section 11.
+constexpr double csm_error_at(double e, int terms) {
+  double sum = 0;
+  for (int k = 1; k <= terms; ++k) sum += 1.0 / (2 * k - 1);
+  const double bound = 8 * 0x1.6a09e667f3bcdp+0 / 0x1.921fb54442d18p+1 * e * sum * (1 + 0x1p-40);
+  return bound < 1 ? bound : 1;
+}
+
 /// Largest share of a footprint that rounded weights move: the total variation of bilinear weights
 /// whose two fractions are each off by half a step of 2^-bits.
 ///

@@ -88,6 +88,21 @@ std::vector<configuration> configurations() {
   all.push_back(c);
   c.second = second_moment::centred;
   all.push_back(c);
+  for (const technique method : {technique::esm, technique::csm, technique::msm}) {
+    c = {};
+    c.method = method;
+    all.push_back(c);
+    c.blur_taps = 5;
+    c.filter = texel_filter::trilinear;
+    c.bleeding_reduction = 0.25;
+    c.terms = 2;
+    c.optimised_basis = false;
+    all.push_back(c);
+    c.filter = texel_filter::bilinear;
+    c.filtered = {2, blur_shape::box, blur_way::one_pass, 8, 3};
+    c.bound = moment_bound::hausdorff;
+    all.push_back(c);
+  }
   return all;
 }
 
