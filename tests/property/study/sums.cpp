@@ -15,7 +15,7 @@ namespace {
 
 /// The share of the bound that maps of one depth reach at least: every sum of a binade is rounded
 /// to the same side.
-constexpr double sums_reached = 0.2;
+constexpr double sums_reached = 0.4;
 
 struct worst {
   double share = 0;

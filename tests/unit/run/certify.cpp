@@ -2,6 +2,7 @@
 #include "run/certify.hpp"
 
 #include <random>
+#include <string>
 
 #include "bitshade/interop/rational.hpp"
 #include "io/error.hpp"
@@ -22,8 +23,9 @@ double mean_width(const std::vector<light_interval>& all) {
   return sum / count;
 }
 
-/// How much narrower each certificate is than the one before, on average over a scene.
-constexpr double stored_share = 0.25, running_share = 0.8;
+/// How much narrower each certificate is than the one before, on average over a scene; of sums in
+/// binary32 the running one.
+constexpr double stored_share = 0.25, running_share = 0.8, sums_share = 0.45;
 
 /// The exact run must lie in all three, each of which lies in the one before.
 void check_held(const frame& scene, const configuration& how) {
@@ -116,9 +118,10 @@ TEST_CASE("certificates of summed-area tables hold the exact visibility on every
       check_held(scene, how);
       const auto got = certify(scene, how);
       CAPTURE(name, format);
-      // What the sums' roundings really did is far less than what W H of them could do.
-      const bool floating = format[0] != 'u';
-      CHECK(mean_width(got.running) <= (floating ? 0.5 : running_share) * mean_width(got.stored));
+      if (std::string(format) == "half") continue;  // sums of 9216 texels: nothing is certain
+      // What roundings of sums really did is far less than what so many of them could do.
+      const bool sums = std::string(format) == "binary32";
+      CHECK(mean_width(got.running) <= (sums ? sums_share : running_share) * mean_width(got.stored));
     }
   }
 }
