@@ -1,6 +1,7 @@
 #include "command/precision_scene.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "precision/scene_bits.hpp"
 
@@ -36,9 +37,9 @@ std::vector<configuration> cells_on_scene(const scene_question& question) {
 void search_cells(const frame& scene, const std::vector<configuration>& cells, int threads,
                   precision_findings& found) {
   for (const configuration& c : cells)
-    for (const bit_search::scene_search& one : bit_search::searches_of(c))
-      found.on_scene.push_back(
-          bit_search::search_scene(scene, c, one, found.tolerated, threads));
+    for (bit_search::scene_bits& one : bit_search::search_scene(
+             scene, c, bit_search::searches_of(c), found.tolerated, threads))
+      found.on_scene.push_back(std::move(one));
 }
 
 }  // namespace bitshade::command

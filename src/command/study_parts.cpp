@@ -138,9 +138,10 @@ std::vector<report_part> bits_needed(const study_job& job, const job_result& res
     c.noise_floor = false;
     if (n == 1 || c.splits == split_rule::manual)
       c.splits = split_rule::uniform, c.manual_splits.clear();
-    found.on_scene.push_back(bit_search::search_scene(
-        scene, c, {stage::store, bit_search::bit_unit::unorm}, found.tolerated,
-        job.scene->threads));
+    found.on_scene.push_back(
+        bit_search::search_scene(scene, c, {{stage::store, bit_search::bit_unit::unorm}},
+                                 found.tolerated, job.scene->threads)
+            .front());
   }
   if (summed) {
     summed->noise_floor = false;

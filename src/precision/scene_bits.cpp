@@ -105,6 +105,51 @@ int predicted_bits(const frame& scene, const configuration& how, const scene_sea
   return search.unit == bit_unit::unorm ? unorm_bits_needed(q) : significand_bits_needed(q);
 }
 
+scene_bits searched(const frame& scene, const configuration& unrounded, const scene_search& search,
+                    double tolerated, const std::vector<double>& exact, int threads) {
+  const auto error_with = [&](int bits) {
+    configuration how = unrounded;
+    stage_choices choices;
+    if (search.which) choices.in_format = stage_set::only(*search.which);
+    if (search.which == stage::weights) {
+      choices.weight_bits = bits;
+    } else if (search.which == stage::shading) {
+      choices.shading = binary_encoding(8, bits - 1);
+    } else {
+      how.format = format_of(search.unit, bits);
+    }
+    return compare(run_staged(scene, how, choices, threads).visibility, exact).largest;
+  };
+  scene_bits r;
+  r.technique = name_of(unrounded.method);
+  r.stage = search.which ? name_of(*search.which) : "all";
+  r.unit = unit_names[static_cast<std::size_t>(search.unit)];
+  r.layers = unrounded.method == technique::lvsm ? unrounded.layers : 1;
+  r.min_variance = uses_floor(unrounded.method) ? unrounded.min_variance : 0;
+  r.bounded = bounded(unrounded, search);
+  r.predicted = predicted_bits(scene, unrounded, search, tolerated);
+  const int most = widest(unrounded, search);
+  r.error_below = error_with(2);
+  if (r.error_below <= tolerated) {
+    r.found = 2;
+    r.error = r.error_below;
+    r.error_below = 0;
+    return r;
+  }
+  int low = 2, high = most + 1;  // low breaks, high keeps or is beyond
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    const double error = error_with(middle);
+    if (error <= tolerated) {
+      high = middle, r.error = error;
+    } else {
+      low = middle, r.error_below = error;
+    }
+  }
+  r.found = high > most ? 0 : high;
+  return r;
+}
+
 }  // namespace
 
 std::vector<scene_search> searches_of(const configuration& asked) {
@@ -131,54 +176,18 @@ std::vector<scene_search> searches_of(const configuration& asked) {
   return all;
 }
 
-scene_bits search_scene(const frame& scene, const configuration& asked, const scene_search& search,
-                        double tolerated, int threads) {
-  configuration how = asked;
-  const auto light = [&](int bits) {
-    stage_choices choices;
-    if (search.which) choices.in_format = stage_set::only(*search.which);
-    if (bits == 0) choices.in_format = stage_set::none();
-    how.format = exponential(how) ? "e8m23" : "binary32";
-    if (bits > 0 && search.which == stage::weights) {
-      choices.weight_bits = bits;
-    } else if (bits > 0 && search.which == stage::shading) {
-      choices.shading = binary_encoding(8, bits - 1);
-    } else if (bits > 0) {
-      how.format = format_of(search.unit, bits);
-    }
-    return run_staged(scene, how, choices, threads).visibility;
-  };
-  const auto exact = light(0);
-  const auto error_with = [&](int bits) { return compare(light(bits), exact).largest; };
-  scene_bits r;
-  r.technique = name_of(how.method);
-  r.stage = search.which ? name_of(*search.which) : "all";
-  r.unit = unit_names[static_cast<std::size_t>(search.unit)];
-  r.layers = how.method == technique::lvsm ? how.layers : 1;
-  r.min_variance = uses_floor(how.method) ? how.min_variance : 0;
-  r.bounded = bounded(how, search);
-  r.predicted = predicted_bits(scene, how, search, tolerated);
-  const int most = widest(how, search);
-  int low = 1, high = most + 1;  // low breaks, high keeps or is beyond
-  r.error_below = error_with(2);
-  if (r.error_below <= tolerated) {
-    r.found = 2;
-    r.error = r.error_below;
-    r.error_below = 0;
-    return r;
-  }
-  low = 2;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    const double error = error_with(middle);
-    if (error <= tolerated) {
-      high = middle, r.error = error;
-    } else {
-      low = middle, r.error_below = error;
-    }
-  }
-  r.found = high > most ? 0 : high;
-  return r;
+std::vector<scene_bits> search_scene(const frame& scene, const configuration& how,
+                                     const std::vector<scene_search>& searches, double tolerated,
+                                     int threads) {
+  if (searches.empty()) return {};
+  configuration unrounded = how;
+  unrounded.format = exponential(how) ? "e8m23" : "binary32";
+  const auto exact =
+      run_staged(scene, unrounded, {stage_set::none(), 0, {}}, threads).visibility;
+  std::vector<scene_bits> all;
+  for (const scene_search& search : searches)
+    all.push_back(searched(scene, unrounded, search, tolerated, exact, threads));
+  return all;
 }
 
 }  // namespace bitshade::bit_search

@@ -41,12 +41,14 @@ struct scene_bits {
 /// no format of its own.
 std::vector<scene_search> searches_of(const configuration& how);
 
-/// Searches the fewest bits of a configuration, whose format is not read.
+/// Searches the fewest bits of a configuration, whose format is not read; one exact run serves all
+/// searches.
 ///
 /// Policy   bits are halved: the largest error is taken to fall with them. Of all stages in a
 ///          format, everything but stores is done in binary32 or binary64, as run_pipeline() does.
 /// Failure  as run_staged().
-scene_bits search_scene(const frame& scene, const configuration& how, const scene_search& search,
-                        double tolerated, int threads = 0);
+std::vector<scene_bits> search_scene(const frame& scene, const configuration& how,
+                                     const std::vector<scene_search>& searches, double tolerated,
+                                     int threads = 0);
 
 }  // namespace bitshade::bit_search

@@ -60,8 +60,11 @@ nlohmann::ordered_json blame_json(const blame& b) {
 std::string blame_sentence(const blame& b) {
   if (b.whole.rmse == 0) return "No stage changes a bit of the picture.";
   const stage_blame& worst = b.guiltiest();
-  return "The " + std::string(name_of(worst.which)) + " is guilty: alone it makes " +
-         percent(b.share(worst)) + " % of the summed squares; were it exact, " +
+  const std::string name(name_of(worst.which));
+  const bool several = name.back() == 's';  // sums, mips, weights, splits
+  return "The " + name + (several ? " are guilty: alone they make " : " is guilty: alone it makes ") +
+         percent(b.share(worst)) + " % of the summed squares; were " +
+         (several ? "they" : "it") + " exact, " +
          brief(worst.without.rmse) + " RMSE would be left of " + brief(b.whole.rmse) + ".";
 }
 
