@@ -198,23 +198,21 @@ void decode_norm(const plan& p, const void* in, void* out, std::size_t n) {
 /// Codes of narrow and equal reach to numbers: exact, by shifting the fields into place.
 template <class V, reach Reach, class Code, class Out>
 void decode_binary(const plan& p, const void* in, void* out, std::size_t n) {
-  using word = typename V::word;
-  constexpr int fraction = V::fraction_bits;
-  constexpr int lane_bits = static_cast<int>(sizeof(word)) * 8;
-  constexpr int lane_bias = (1 << (V::exponent_bits - 1)) - 1;
-  constexpr word infinity_word = ((word{1} << V::exponent_bits) - 1) << fraction;
-  const auto all = [](std::uint64_t w) { return V::all_bits(static_cast<word>(w)); };
-  const word rebias = static_cast<word>(lane_bias - p.bias) << fraction;
+  using shape = lane_shape<V>;
+  using word = typename shape::word;
+  constexpr int fraction = shape::fraction;
+  const auto all = [](std::uint64_t w) { return shape::all(w); };
+  const word rebias = static_cast<word>(shape::lane_bias - p.bias) << fraction;
   const auto magnitude = all((p.has_sign ? p.sign : std::uint64_t{1} << p.width) - 1);
-  const auto sign = all(p.sign), sign_shift = all(static_cast<word>(lane_bits - p.width));
+  const auto sign = all(p.sign), sign_shift = all(static_cast<word>(shape::lane_bits - p.width));
   const auto shift = all(static_cast<word>(fraction - p.fraction_bits));
-  const auto normal = all(rebias), subnormal = all(rebias + (word{1} << fraction));
+  const auto normal = all(rebias), subnormal = all(rebias + shape::unit_word);
   const auto least = V::value(subnormal);
   const auto least_code = all(p.min_normal_code), largest = all(p.max_code);
-  const auto infinity = all(infinity_word);
+  const auto infinity = all(shape::infinity_word);
   // Of a NaN's payload e4m3 keeps nothing; binary64 keeps even a signalling one, as decode does.
-  const auto payload = all(p.special == specials::single_nan ? 0 : (word{1} << fraction) - 1);
-  const auto quieted = all(sizeof(Out) == 8 && p.special != specials::single_nan ? 0 : word{1} << (fraction - 1));
+  const auto payload = all(p.special == specials::single_nan ? 0 : shape::unit_word - 1);
+  const auto quieted = all(sizeof(Out) == 8 && p.special != specials::single_nan ? 0 : shape::unit_word >> 1);
   const auto infinite_code = all(p.special == specials::single_nan ? p.max_code : p.max_code + 1);
   const bool flush = p.flush_loads;
   over<V, Code, Out>(in, out, n, [&](const Code* a, Out* b) {
