@@ -1,8 +1,9 @@
 // Rounding a vector to a binary format under any rules, to codes or numbers, by integers and by adding a power of two.
-// No branch, no memory: the same time for every input, subnormals included. value_step.hpp is faster where it serves.
+// No branch, no memory: the same time for every input, subnormals included. narrow_value.hpp and
+// shared_exponent_value.hpp are faster where they serve.
 #pragma once
 
-#include "bulk/plan.hpp"
+#include "bulk/lane_shape.hpp"
 
 namespace bitshade::bulk_kernels {
 
@@ -15,22 +16,19 @@ namespace bitshade::bulk_kernels {
 /// equal, wider: the unit is a fixed bit of the carrier's bits, so integer additions round. For `wider`, numbers
 /// that are subnormal in the carrier are converted from integers to normal ones first.
 template <class V, reach Reach, rounding D>
-struct binary_step {
-  using f = typename V::f;
-  using i = typename V::i;
-  using m = typename V::m;
-  using word = typename V::word;
-  static constexpr int fraction = V::fraction_bits;
-  static constexpr int lane_bits = static_cast<int>(sizeof(word)) * 8;
-  static constexpr int lane_bias = (1 << (V::exponent_bits - 1)) - 1;
-  static constexpr word ones = ~word{0};
-  static constexpr word unit_word = word{1} << fraction;  // one step of the exponent; the smallest normal number
-  static constexpr word infinity_word = ((word{1} << V::exponent_bits) - 1) << fraction;
+struct binary_step : lane_shape<V> {
+  using shape = lane_shape<V>;
+  using f = typename shape::f;
+  using i = typename shape::i;
+  using m = typename shape::m;
+  using word = typename shape::word;
+  using shape::all, shape::fraction, shape::infinity_word, shape::lane_bias, shape::lane_bits, shape::ones, shape::quiet_word,
+      shape::unit_word;
 
   const i sign = V::all_bits(word{1} << (lane_bits - 1));
   const i magnitude = V::all_bits(ones >> 1);
   const i infinity = V::all_bits(infinity_word);
-  const i quiet = V::all_bits(infinity_word | unit_word >> 1);
+  const i quiet = V::all_bits(quiet_word);
   i lowest, highest, up, half, one, odd, shift, kept, low, left;
   i overflow_positive, overflow_negative, infinite, largest, smallest, nan, nan_payload, nan_shift, nan_sign;
   i sign_shift, sign_code, rebias, tiny_rebias, random_mask;
@@ -61,7 +59,7 @@ struct binary_step {
     largest = all(to_codes ? p.max_code : n.largest);
     smallest = all(to_codes ? (p.flush_codes ? p.min_normal_code : 0) : (p.flush_values ? n.min_normal : 0));
     const bool payload = !p.canonical_nan && p.special != specials::single_nan;
-    nan = all(to_codes ? p.nan_code : infinity_word | unit_word >> 1);
+    nan = all(to_codes ? p.nan_code : quiet_word);
     nan_payload = all(!payload ? 0 : (to_codes ? ones : ~below) & (unit_word - 1));
     nan_shift = all(to_codes ? static_cast<word>(s) : 0);
     nan_sign = all(p.canonical_nan ? 0 : ones);
@@ -156,8 +154,6 @@ struct binary_step {
   }
 
  private:
-  [[gnu::always_inline]] static i all(std::uint64_t w) { return V::all_bits(static_cast<word>(w)); }
-
   /// One unit more in magnitude, where the direction asks for it.
   [[gnu::always_inline]] i nudge(i sum, m inexact, i x) const {
     const i step = V::keep(inexact, one);

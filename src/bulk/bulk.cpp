@@ -139,8 +139,8 @@ void work(const encoding& e, const rules& r, std::span<const In> in, std::span<O
     if (r.direction != rounding::stochastic) {
       return run<What>(p, direct, in.data() + begin, out.data() + begin, n, set);
     }
-    // Kernels stay within one stream of random bits (random.hpp: 2^33 numbers).
-    constexpr std::uint64_t stream = std::uint64_t{1} << 33;
+    // Kernels stay within one stream of random bits.
+    constexpr std::uint64_t stream = std::uint64_t{1} << rounding_stream::stream_bits;
     for (const std::size_t end = begin + n; begin < end;) {
       plan part = p;
       advance(part, begin);

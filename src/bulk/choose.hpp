@@ -127,10 +127,8 @@ chosen choose_single(const plan& p, request r) {
       }
       if (r.what == operation::round) {
         if (p.direction == rounding::stochastic) {
-          const bool few = p.random_bits <= 23;
-          const kernel draw = p.has_sign ? (few ? draw_norm<V, true, true> : draw_norm<V, true, false>)
-                                         : (few ? draw_norm<V, false, true> : draw_norm<V, false, false>);
-          return {draw, setting::toward_zero, norm_quotients<V>};
+          if (p.random_bits > 23) return {p.has_sign ? round_norm_drawn<V, true> : round_norm_drawn<V, false>, setting::nearest};
+          return {p.has_sign ? draw_norm<V, true> : draw_norm<V, false>, setting::toward_zero, norm_quotients<V>};
         }
         return with_direction<false>(p.direction, [&](auto d) -> chosen {
           constexpr rounding D = decltype(d)::value;

@@ -41,9 +41,10 @@ template <class V, class In, class Out, class Step, class Put, class Decide>
   const In* in = static_cast<const In*>(source);
   Out* out = static_cast<Out*>(target);
   random_block<V> random(p);
-  // `first` is the number of the block's first element, below 0 (modulo 2^64) where the block began before the span.
-  const auto whole = [&](const In* a, Out* b, std::size_t first) {
-    random.draw();
+  random.draw();
+  // `first` is the number of the block's first element, below 0 (modulo 2^64) where the block began before the span. In
+  // the loop, not called: a call would load every constant again for each block.
+  const auto whole = [&](const In* a, Out* b, std::size_t first) __attribute__((always_inline)) {
 #pragma GCC unroll 2
     for (std::size_t g = 0; g < vectors; g += group) {
       using result = decltype(step(a, random.bits(0), *static_cast<typename V::m*>(nullptr)));
@@ -62,22 +63,23 @@ template <class V, class In, class Out, class Step, class Put, class Decide>
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < group; ++k) put(b + (g + k) * width, r[k]);
     }
+    random.draw();
   };
-  const auto part = [&](std::size_t skip, std::size_t j, std::size_t m) {
-    In some_in[block] = {};
-    Out some_out[block];
-    for (std::size_t k = 0; k < m; ++k) some_in[skip + k] = in[j + k];
-    whole(some_in, some_out, j - skip);
-    for (std::size_t k = 0; k < m; ++k) out[j + k] = some_out[skip + k];
-  };
-  const std::size_t skip = p.counter % block;
-  std::size_t j = 0;
-  if (skip != 0) {
-    j = n < block - skip ? n : block - skip;
-    part(skip, 0, j);
+  In some_in[block] = {};
+  Out some_out[block];
+  std::size_t skip = p.counter % block;
+  for (std::size_t j = 0; j < n; skip = 0) {
+    const std::size_t m = n - j < block - skip ? n - j : block - skip;
+    const bool part = m < block;
+    if (part) [[unlikely]] {
+      for (std::size_t k = 0; k < m; ++k) some_in[skip + k] = in[j + k];
+    }
+    whole(part ? some_in : in + j, part ? some_out : out + j, j - skip);
+    if (part) [[unlikely]] {
+      for (std::size_t k = 0; k < m; ++k) out[j + k] = some_out[skip + k];
+    }
+    j += m;
   }
-  for (; j + block <= n; j += block) whole(in + j, out + j, j);
-  if (j < n) part(0, j, n - j);
 }
 
 /// Runs step and put in any direction; a step that does not draw ignores its second and third argument.
@@ -141,22 +143,25 @@ void round_norm_in(const plan& p, const void* in, void* out, std::size_t n) {
   over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step(V::load(a))); });
 }
 
-/// Stochastically to codes that are still numbers; norm_quotients, to nearest, makes values of them.
-template <class V, bool Signed, bool Few>
-void draw_norm(const plan& p, const void* in, void* out, std::size_t n) {
+/// Stochastically, with more than 23 random bits.
+template <class V, bool Signed>
+void round_norm_drawn(const plan& p, const void* in, void* out, std::size_t n) {
   using f = typename V::f;
-  const drawn_norm<V, Signed, Few> step(p);
+  const drawn_norm_value<V, Signed> step(p);
   const auto one = [&](const float* a, typename V::i random, typename V::m& undecided) {
     return step(V::load(a), random, undecided);
   };
-  const auto decide = [&](const float* a, float* b, std::size_t first) {
-    p.define(p, a, b, V::width, first);
-    for (std::size_t k = 0; k < V::width; ++k) {  // back from the value to its code
-      const double code = double{b[k]} * p.scale;
-      b[k] = static_cast<float>(static_cast<int>(code < 0 ? code - 0.5 : code + 0.5));
-    }
-  };
-  over_random<V, float, float>(p, in, out, n, one, [](float* b, f c) { V::store(b, c); }, decide);
+  in_direction<V, rounding::stochastic, float, float>(p, in, out, n, one, [](float* b, f v) { V::store(b, v); });
+}
+
+/// Stochastically, with at most 23 random bits, to codes that are still numbers; norm_quotients, to nearest, makes values of
+/// them.
+template <class V, bool Signed>
+void draw_norm(const plan& p, const void* in, void* out, std::size_t n) {
+  using f = typename V::f;
+  const drawn_norm<V, Signed> step(p);
+  const auto one = [&](const float* a, typename V::i random, typename V::m&) { return step(V::load(a), random); };
+  in_direction<V, rounding::stochastic, float, float>(p, in, out, n, one, [](float* b, f c) { V::store(b, c); });
 }
 template <class V>
 void norm_quotients(const plan& p, const void* in, void* out, std::size_t n) {
@@ -198,23 +203,21 @@ void decode_norm(const plan& p, const void* in, void* out, std::size_t n) {
 /// Codes of narrow and equal reach to numbers: exact, by shifting the fields into place.
 template <class V, reach Reach, class Code, class Out>
 void decode_binary(const plan& p, const void* in, void* out, std::size_t n) {
-  using word = typename V::word;
-  constexpr int fraction = V::fraction_bits;
-  constexpr int lane_bits = static_cast<int>(sizeof(word)) * 8;
-  constexpr int lane_bias = (1 << (V::exponent_bits - 1)) - 1;
-  constexpr word infinity_word = ((word{1} << V::exponent_bits) - 1) << fraction;
-  const auto all = [](std::uint64_t w) { return V::all_bits(static_cast<word>(w)); };
-  const word rebias = static_cast<word>(lane_bias - p.bias) << fraction;
+  using shape = lane_shape<V>;
+  using word = typename shape::word;
+  constexpr int fraction = shape::fraction;
+  const auto all = [](std::uint64_t w) { return shape::all(w); };
+  const word rebias = static_cast<word>(shape::lane_bias - p.bias) << fraction;
   const auto magnitude = all((p.has_sign ? p.sign : std::uint64_t{1} << p.width) - 1);
-  const auto sign = all(p.sign), sign_shift = all(static_cast<word>(lane_bits - p.width));
+  const auto sign = all(p.sign), sign_shift = all(static_cast<word>(shape::lane_bits - p.width));
   const auto shift = all(static_cast<word>(fraction - p.fraction_bits));
-  const auto normal = all(rebias), subnormal = all(rebias + (word{1} << fraction));
+  const auto normal = all(rebias), subnormal = all(rebias + shape::unit_word);
   const auto least = V::value(subnormal);
   const auto least_code = all(p.min_normal_code), largest = all(p.max_code);
-  const auto infinity = all(infinity_word);
+  const auto infinity = all(shape::infinity_word);
   // Of a NaN's payload e4m3 keeps nothing; binary64 keeps even a signalling one, as decode does.
-  const auto payload = all(p.special == specials::single_nan ? 0 : (word{1} << fraction) - 1);
-  const auto quieted = all(sizeof(Out) == 8 && p.special != specials::single_nan ? 0 : word{1} << (fraction - 1));
+  const auto payload = all(p.special == specials::single_nan ? 0 : shape::unit_word - 1);
+  const auto quieted = all(sizeof(Out) == 8 && p.special != specials::single_nan ? 0 : shape::unit_word >> 1);
   const auto infinite_code = all(p.special == specials::single_nan ? p.max_code : p.max_code + 1);
   const bool flush = p.flush_loads;
   over<V, Code, Out>(in, out, n, [&](const Code* a, Out* b) {

@@ -3,7 +3,7 @@
 // No branch on values, no memory: the same time for every input.
 #pragma once
 
-#include "bulk/value_numbers.hpp"
+#include "bulk/lane_shape.hpp"
 
 namespace bitshade::bulk_kernels {
 
@@ -25,8 +25,8 @@ namespace bitshade::bulk_kernels {
 /// normal number), c = fl(2^s t + |x|), then c - fl(c - |x|). Where c crosses into the next binade, the inner difference
 /// still has the format's unit; ties are even multiples of it in both.
 template <class V, rounding D, ends Ends, bool Few = false>
-struct narrow_value : value_numbers<V> {
-  using n = value_numbers<V>;
+struct narrow_value : lane_shape<V> {
+  using n = lane_shape<V>;
   using f = typename n::f;
   using i = typename n::i;
   using m = typename n::m;

@@ -77,11 +77,12 @@ struct norm_step {
 
   /// The number of a code that is still in floating point; to nearest.
   [[gnu::always_inline]] f to_value(f c) const {
-    if (!divides) return V::mul(c, step);
     if constexpr (sizeof(word) == 4) {
-      // 1 / scale in two parts: for every code of at most 22 bits the quotient rounded once; a test tries all of them.
+      // 1 / scale in two parts: for every code of at most 22 bits the quotient rounded once; a test tries all of them. Of
+      // fixed point the second part is 0.
       return V::fma(c, step, V::mul(c, rest));
     } else {
+      if (!divides) return V::mul(c, step);
       if (reciprocal) return V::as_single(V::mul(V::as_single(c), step));
       const f q = V::mul(c, step);
       // One step of Newton's with an exact remainder: the quotient rounded once [Markstein90]; tests try every code.

@@ -75,29 +75,55 @@ struct norm_value : norm_range<V, Signed> {
   }
 };
 
-/// Stochastic; the processor must round toward zero. With 23 random bits as a number R from 1 to 2, |x| scale + R, cut to
-/// 24 bits and then to an integer, is one more than the code: cutting twice is cutting once. What the code leaves of the
-/// exact sum tells, as `undecided`, where it falls short of the next integer by less than the last random bit. `Few`: at
-/// most 23 random bits, with which everything is decided.
-template <class V, bool Signed, bool Few>
+/// Stochastic; the processor must round to nearest. n is the integer nearest to |x| scale, d the rest, from -1/2 to 1/2, and
+/// R, from 0 to 1, the first 23 random bits: the code is n + floor(d + R), which is the integer nearest to n + h with
+/// h = d + R - 1/2. Rounding moves h by at most 2^-24; only next to a tie, |h| = 1/2, can that matter, or can the random bits
+/// to come, whose part is below 2^-23. There h h + 4 is rounded to 4 + 1/4, as `undecided` tells; elsewhere it is once in 2^21.
+template <class V, bool Signed>
+struct drawn_norm_value : norm_range<V, Signed> {
+  using range = norm_range<V, Signed>;
+  using f = typename V::f;
+  using i = typename V::i;
+
+  norm_step<V, rounding::nearest_even> step;
+  const i one = V::bits(V::all(1));
+  const f magic = V::all(Signed ? 0x1.8p23f : 0x1p23f + 1), half_less = V::all(0x1p23f - 0.5f), three_halves = V::all(1.5f);
+  const f four = V::all(4), tie = V::all(4.25f);
+
+  [[gnu::always_inline]] explicit drawn_norm_value(const plan& p) : range(p), step(p) {}
+
+  [[gnu::always_inline]] f operator()(f x, i random, typename V::m& undecided) const {
+    const f y = range::clamp(x), drawn = V::value(V::or_(V::leading(random), one)), sum = V::fma(y, step.scale, magic);
+    f h;
+    if constexpr (Signed) {
+      const i away = V::xor_(V::bits(V::sub(drawn, three_halves)), V::and_(V::bits(y), range::sign));
+      h = V::add(V::fms(y, step.scale, V::sub(sum, magic)), V::value(away));
+    } else {
+      h = V::add(V::fms(y, step.scale, V::sub(sum, half_less)), drawn);
+    }
+    undecided = V::eq(V::fma(h, h, four), tie);
+    return step.to_value(V::sub(V::add(sum, h), magic));
+  }
+};
+
+/// Stochastic with at most 23 random bits; the processor must round toward zero. With those bits as a number R from 1 to 2,
+/// |x| scale + R, cut to 24 bits and then to an integer, is one more than the code: cutting twice is cutting once.
+template <class V, bool Signed>
 struct drawn_norm : norm_range<V, Signed> {
   using range = norm_range<V, Signed>;
   using f = typename V::f;
   using i = typename V::i;
 
   const f unit = V::all(0x1p23f), unit_and_one = V::all(0x1p23f + 1), scale;
-  const i one = V::bits(V::all(1)), before_last = V::all_bits(0x3ffffffeu), random_mask;
+  const i one = V::bits(V::all(1)), random_mask;
 
   [[gnu::always_inline]] explicit drawn_norm(const plan& p)
-      : range(p), scale(V::all(static_cast<float>(p.scale))), random_mask(V::all_bits(~(0xffffffffu >> p.random_bits % 32))) {}
+      : range(p), scale(V::all(static_cast<float>(p.scale))), random_mask(V::all_bits(~(0xffffffffu >> p.random_bits))) {}
 
-  [[gnu::always_inline]] f operator()(f x, i random, typename V::m& undecided) const {
+  [[gnu::always_inline]] f operator()(f x, i random) const {
     const f y = range::clamp(x), a = range::size(y);
-    if constexpr (Few) random = V::and_(random, random_mask);
-    const f drawn = V::value(V::or_(V::leading(random), one));
-    const f c = V::sub(V::add(V::fma(a, scale, drawn), unit), unit_and_one);
-    if constexpr (!Few) undecided = V::igt(V::bits(V::add(V::fms(a, scale, c), drawn)), before_last);
-    return range::with_sign(c, y);
+    const f drawn = V::value(V::or_(V::leading(V::and_(random, random_mask)), one));
+    return range::with_sign(V::sub(V::add(V::fma(a, scale, drawn), unit), unit_and_one), y);
   }
 };
 

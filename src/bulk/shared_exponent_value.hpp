@@ -2,15 +2,15 @@
 // subnormals and NaNs are kept and whose overflow is IEEE's. No branch, no memory: the same operations for every input.
 #pragma once
 
-#include "bulk/value_numbers.hpp"
+#include "bulk/lane_shape.hpp"
 
 namespace bitshade::bulk_kernels {
 
 /// The unit is a fixed bit of the lane's, and overflow carries into the exponent of infinity by itself. `Wider`: numbers
 /// that are subnormal in the lane are normal ones of the format.
 template <class V, rounding D, bool Wider>
-struct shared_exponent_value : value_numbers<V> {
-  using n = value_numbers<V>;
+struct shared_exponent_value : lane_shape<V> {
+  using n = lane_shape<V>;
   using f = typename n::f;
   using i = typename n::i;
   using m = typename n::m;

@@ -1,5 +1,6 @@
 // Integers and floating-point numbers of 128 bits, which are standard types where the compiler's extensions are on
 // (-std=gnu++20, CMake's default).
+#include <algorithm>
 #include <limits>
 
 #include "bitshade/arithmetic/ball.hpp"
@@ -67,6 +68,32 @@ TEST_CASE("real rounds long double once, the ends of its range included") {
   CHECK(real<binary64, rules{rounding::up}>(limits::denorm_min()) == std::numeric_limits<double>::denorm_min());
   CHECK(real<binary64, rules{rounding::up}>(-limits::denorm_min()) == 0);
   CHECK(std::isnan(static_cast<double>(twice(limits::quiet_NaN()))));
+}
+
+/// Every power of two of T, subnormal ones included, by itself and with T's last bit beside it.
+template <class T>
+void unpacks_exactly(int most, int least, int digits) {
+  T x = 1;
+  for (int e = 0; e < most; ++e) x *= 2;
+  for (int e = most; e >= least; --e, x /= 2) {
+    const int last = std::max(least, e - digits + 1);
+    T unit = x;
+    for (int k = e; k > last; --k) unit /= 2;
+    for (const bool with_last : {false, true}) {
+      exact_result u = unpack_longer(with_last && e > last ? x + unit : x);
+      // Its leading bit first, then what is left.
+      INFO("2^" << e << (with_last ? " and the last bit" : ""));
+      CHECK(u.exponent + bit_width(u.n) - 1 == e);
+      u.n ^= uint128{1} << (bit_width(u.n) - 1);
+      CHECK((with_last && e > last ? u.n == uint128{1} << (last - u.exponent) : u.n == 0));
+    }
+  }
+  CHECK(x == 0);
+}
+
+TEST_CASE("every power of two of a longer floating-point number is taken as it is") {
+  unpacks_exactly<long double>(16383, -16445, 64);
+  unpacks_exactly<float128>(16383, -16494, 113);
 }
 
 TEST_CASE("ball takes every integer exactly") {

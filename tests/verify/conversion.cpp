@@ -39,6 +39,11 @@ code derived(rounding d, float x, code toward, code away, std::uint64_t random) 
   return static_cast<code>(sign | (up ? high : low));
 }
 
+/// Flattened: with the encoding known in all that it calls, the definition takes half of the time.
+[[gnu::flatten]] code define(float x, const rules& r, std::uint64_t random) {
+  return static_cast<code>(encode(binary16::value, x, r, random));
+}
+
 constexpr const char* names[] = {"nearest-even", "nearest-away", "toward-zero", "up", "down", "to-odd", "stochastic"};
 
 void convert_all(rounding d, std::uint64_t stride, verify::report& report) {
@@ -60,7 +65,8 @@ void convert_all(rounding d, std::uint64_t stride, verify::report& report) {
         hardware::up(in.data(), up.data(), block);
         hardware::down(in.data(), down.data(), block);
         for (std::size_t i = 0; i < block; ++i)
-          want[i] = derived(d, in[i], toward[i], (toward[i] & 0x8000) != 0 ? down[i] : up[i], rounding_bits(0, first + i));
+          want[i] = derived(d, in[i], toward[i], (toward[i] & 0x8000) != 0 ? down[i] : up[i],
+                            d == rounding::stochastic ? rounding_bits(0, first + i) : 0);
     }
     const auto compare = [&](verify::tally& t, const char* who) {
       for (std::size_t i = 0; i < block; ++i)
@@ -70,7 +76,7 @@ void convert_all(rounding d, std::uint64_t stride, verify::report& report) {
     // The definition takes its time: to nearest even all numbers, in other directions every eighth block.
     if (d == rounding::nearest_even || first / block / stride % 8 == first / (block * stride * 8) % 8) {
       for (std::size_t i = 0; i < block; ++i)
-        got[i] = static_cast<code>(encode(binary16::value, in[i], r, rounding_bits(0, first + i)));
+        got[i] = define(in[i], r, d == rounding::stochastic ? rounding_bits(0, first + i) : 0);
       compare(definition, "encode");
     }
     for (const auto set : {bulk::instruction_set::baseline, bulk::instruction_set::avx2, bulk::instruction_set::avx512}) {

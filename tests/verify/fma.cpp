@@ -88,6 +88,11 @@ triple draw(std::size_t kind, std::uint64_t i, const std::vector<std::uint64_t>&
   }
 }
 
+/// Flattened: with the encoding known in all that it calls, the definition takes half of the time.
+[[gnu::flatten]] std::uint64_t define(code a, code b, code c, const rules& r) {
+  return fused_multiply_add(binary16::value, a, b, c, r);
+}
+
 void sample(std::size_t kind, std::uint64_t count, verify::report& report) {
   constexpr std::size_t block = 4096;
   const auto boundary = oracle::boundary_codes(binary16::value);
@@ -105,7 +110,7 @@ void sample(std::size_t kind, std::uint64_t count, verify::report& report) {
       r.direction = static_cast<rounding>((at + i) % 6);
       const code nearest = integer_half::fma(a[i], b[i], c[i], rounding::nearest_even);
       const code want = r.direction == rounding::nearest_even ? nearest : integer_half::fma(a[i], b[i], c[i], r.direction);
-      const std::uint64_t defined = fused_multiply_add(binary16::value, a[i], b[i], c[i], r);
+      const std::uint64_t defined = define(a[i], b[i], c[i], r);
       const code carried = fma(half::from_bits(a[i]), half::from_bits(b[i]), half::from_bits(c[i])).bits();
       ours.expect(defined == want && carried == nearest && got[i] == nearest,
                   "0x%04x * 0x%04x + 0x%04x: operations.hpp, direction %d, 0x%04x for 0x%04x; real 0x%04x, bulk 0x%04x "

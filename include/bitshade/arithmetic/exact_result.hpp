@@ -54,7 +54,7 @@ constexpr exact_result unpack_longer(T x) {
     if (x >= power[i]) x /= power[i], exponent += std::int64_t{1} << i;
     else if (x < 1 && x * power[i] < 2) x *= power[i], exponent -= std::int64_t{1} << i;
   }
-  for (; x < 1; x *= 2) --exponent;  // the last subnormal numbers
+  // From 1 to 2, or subnormal and less: the last bit of binary128, 2^-16494, is 2^-111 by now, of the 127 that follow.
   x *= static_cast<T>(std::uint64_t{1} << 63);
   const auto high = static_cast<std::uint64_t>(x);
   x = (x - static_cast<T>(high)) * static_cast<T>(std::uint64_t{1} << 32) * static_cast<T>(std::uint64_t{1} << 32);

@@ -1,14 +1,10 @@
 // Hard case 42, and the promises of the interface: environment, threads, aliasing, errors.
 #include "support/catch.hpp"
 
-#include <cfenv>
 #include <numeric>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
 #include "support/bulk_cases.hpp"
+#include "support/hostile_environment.hpp"
 
 namespace {
 
@@ -17,39 +13,69 @@ using bulk_cases::bits_of;
 
 const rules stochastic{.direction = rounding::stochastic};
 
+/// Runs work(out) in peace and in every hostile environment, and compares the bits.
+template <class Out, class Work>
+void same_when_hostile(std::size_t n, Work work) {
+  std::vector<Out> quiet(n), troubled(n);
+  work(quiet);
+  for (const int direction : hostile::directions) {
+    const bool kept = hostile::keeps_environment(direction, [&] { work(troubled); });
+    CHECK(kept);
+    std::size_t j = 0;
+    while (j + 1 < n && bits_of(quiet[j]) == bits_of(troubled[j])) ++j;
+    INFO("element " << j << std::hex << ": 0x" << bits_of(troubled[j]) << " instead of 0x" << bits_of(quiet[j]));
+    CHECK(bits_of(troubled[j]) == bits_of(quiet[j]));
+  }
+}
+
+template <class Code, class T>
+void codes_when_hostile(const encoding& e, const rules& r, const bulk::execution& how, const std::vector<T>& in) {
+  const std::size_t n = in.size();
+  same_when_hostile<Code>(n, [&](auto& out) { bulk::encode(e, r, in, std::span<Code>(out), how); });
+  std::vector<Code> codes(n);
+  bulk::encode(e, r, in, std::span<Code>(codes), how);
+  same_when_hostile<T>(n, [&](auto& out) { bulk::decode(e, r, std::span<const Code>(codes), std::span<T>(out), how); });
+}
+
 TEST_CASE("bulk ignores the caller's rounding direction and flush-to-zero, and puts them back") {
   const encoding formats[] = {binary16::value, bfloat16::value, binary_encoding(11, 4), unorm_encoding(16),
                               unorm_encoding(24), fixed_encoding(4, 12), binary32::value, binary_encoding(8, 26)};
   for (const encoding& e : formats) {
     const auto in = bulk_cases::inputs<float>(e, 200, 200);
+    const auto wide = bulk_cases::inputs<double>(e, 200, 200);
     for (const auto set : bulk_cases::sets()) {
       for (int d = 0; d < 7; ++d) {
         const rules r{.direction = static_cast<rounding>(d)};
         const bulk::execution how{.set = set};
-        std::vector<float> quiet(in.size()), hostile(in.size());
-        bulk::round(e, r, in, quiet, how);
-        for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
-          std::fesetround(direction);
-#if defined(__SSE2__)
-          constexpr unsigned settings = 0xffc0;  // all but the exception flags
-          const unsigned before = (_mm_getcsr() | 0x8040) & settings;  // flush to zero, denormals are zero
-          _mm_setcsr(before);
-#endif
-          bulk::round(e, r, in, hostile, how);
-#if defined(__SSE2__)
-          const unsigned after = _mm_getcsr() & settings;
-          _mm_setcsr(0x1f80);
-          CHECK(after == before);
-#endif
-          CHECK(std::fegetround() == direction);
-          std::fesetround(FE_TONEAREST);
-          std::size_t j = 0;
-          while (j + 1 < in.size() && bits_of(quiet[j]) == bits_of(hostile[j])) ++j;
-          INFO(bulk_cases::describe(e, r, set) << std::hex << " in=0x" << bits_of(in[j]));
-          CHECK(bits_of(hostile[j]) == bits_of(quiet[j]));
-        }
+        INFO(bulk_cases::describe(e, r, set));
+        same_when_hostile<float>(in.size(), [&](auto& out) { bulk::round(e, r, in, std::span<float>(out), how); });
+        same_when_hostile<double>(wide.size(), [&](auto& out) { bulk::round(e, r, wide, std::span<double>(out), how); });
+        codes_when_hostile<std::uint64_t>(e, r, how, wide);
+        if (e.width <= 32) codes_when_hostile<std::uint32_t>(e, r, how, in);
+        if (e.width <= 16) codes_when_hostile<std::uint16_t>(e, r, how, in);
       }
     }
+  }
+  const auto in = bulk_cases::inputs<float>(fp8_e5m2::value, 200, 200);
+  for (const auto set : bulk_cases::sets()) codes_when_hostile<std::uint8_t>(fp8_e5m2::value, {}, {.set = set}, in);
+}
+
+TEST_CASE("bulk arithmetic ignores them as well") {
+  std::vector<std::uint16_t> a(5000), b(a.size()), c(a.size());
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    const std::uint64_t r = random_bits(8, j);
+    a[j] = static_cast<std::uint16_t>(r), b[j] = static_cast<std::uint16_t>(r >> 16), c[j] = static_cast<std::uint16_t>(r >> 32);
+  }
+  for (const auto set : bulk_cases::sets()) {
+    const bulk::execution how{.set = set};
+    INFO(bulk_cases::name_of(set));
+    const auto check = [&](auto operation) { same_when_hostile<std::uint16_t>(a.size(), operation); };
+    check([&](auto& out) { bulk::add(a, b, out, how); });
+    check([&](auto& out) { bulk::subtract(a, b, out, how); });
+    check([&](auto& out) { bulk::multiply(a, b, out, how); });
+    check([&](auto& out) { bulk::divide(a, b, out, how); });
+    check([&](auto& out) { bulk::sqrt(a, out, how); });
+    check([&](auto& out) { bulk::fma(a, b, c, out, how); });
   }
 }
 

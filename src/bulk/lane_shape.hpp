@@ -1,5 +1,4 @@
-// What the steps to numbers (narrow_value.hpp, shared_exponent_value.hpp) share: words of the lanes, products that
-// are exact, and where overflow goes.
+// What the steps share: the words that the lanes' own format makes, products that are exact, and where overflow goes.
 #pragma once
 
 #include "bulk/plan.hpp"
@@ -32,8 +31,9 @@ template <class V>
   else return V::sub(V::mul(e, k), b);
 }
 
+/// The format of the lanes themselves, in words.
 template <class V>
-struct value_numbers {
+struct lane_shape {
   using f = typename V::f;
   using i = typename V::i;
   using m = typename V::m;
