@@ -1,7 +1,5 @@
 #include "texture/passes.hpp"
 
-#include <thread>
-
 namespace bench {
 namespace {
 
@@ -28,10 +26,14 @@ void add_copy_of_image(table& table, const std::string& group, int channels) {
 
 }  // namespace
 
+bulk::execution on(int threads) {
+  static bulk::workers two(2);
+  return {.crew = threads == 1 ? nullptr : &two};
+}
+
 void on_threads(int threads, int n, const std::function<void(int, int)>& work) {
   if (threads == 1) return work(0, n);
-  const std::jthread other([&] { work(0, n / 2); });
-  work(n / 2, n);
+  on(threads).crew->run(2, [&](unsigned k) { work(k == 0 ? 0 : n / 2, k == 0 ? n / 2 : n); });
 }
 
 void add_copies(table& table, const std::string& group, int channels) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "bitshade/arithmetic/workers.hpp"
 #include "texture/images.hpp"
 
 namespace bench {
@@ -11,7 +12,10 @@ namespace bench {
 constexpr double native_limit = 1 / 0.6, stored_limit = 1 / 0.4;
 constexpr int size = 2048;
 
-/// Halves of [0, n) on one or two threads.
+/// One thread, or two that wait between calls: what all rows of two cores share, copies as well.
+bulk::execution on(int threads);
+
+/// Halves of [0, n) on one or two of these threads.
 void on_threads(int threads, int n, const std::function<void(int, int)>& work);
 
 /// What limits passes: copies of an image of 2048^2, of 32-bit and of 16-bit texels, on one core

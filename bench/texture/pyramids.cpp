@@ -5,8 +5,6 @@
 namespace bench {
 namespace {
 
-bulk::execution on(int threads) { return {.threads = static_cast<unsigned>(threads)}; }
-
 template <class T>
 using chain = std::shared_ptr<std::vector<image<T>>>;
 template <class T>

@@ -22,116 +22,117 @@ coordinates picture(int n, int texture) {
   return at;
 }
 
+constexpr int n = 65536, texture = 1024;
+
+/// What all rows look at, and where the answers go.
+struct lookups {
+  image<float> in = moments(texture, texture, 2);
+  coordinates at = picture(n, texture);
+  std::vector<float> out = std::vector<float>(2 * n);
+
+  std::vector<float> by_template(const filter_model& model, const image<float>& level) const {
+    std::vector<float> values(2 * n);
+    bulk::sample(model, level, {}, at.u, at.v, values, instruction_set::scalar);
+    return values;
+  }
+  std::vector<float> by_rationals(std::size_t count) const {
+    std::vector<float> values(2 * count);
+    for (std::size_t i = 0; i < 2 * count; ++i)
+      values[i] = bilinear_rational<float, exact_rational>({&in}, at.u[i / 2], at.v[i / 2],
+                                                           address::clamp, static_cast<int>(i % 2));
+    return values;
+  }
+  std::string compare(const std::vector<float>& right) const {
+    return difference(out.data(), right.data(), right.size());
+  }
+};
+
+using raw_loop = void (*)(const float*, int, int, const float*, const float*, float*, std::size_t);
+
+/// The rows of one instruction set.
+class sampling_rows {
+ public:
+  sampling_rows(table& to, std::string group, std::shared_ptr<lookups> shared, instruction_set set,
+                std::string name)
+      : to_(to), group_(std::move(group)), all_(std::move(shared)), set_(set), name_(std::move(name)) {}
+
+  void add(raw_loop loop, raw_loop gathers) {
+    const filter_model plain = *find_preset("exact");
+    const auto expect_plain = [a = all_, plain] { return a->by_template(plain, a->in); };
+    const auto raw = [this, expect_plain](const std::string& name, raw_loop f) {
+      const auto work = [a = all_, f] {
+        f(a->in.texels.data(), texture, texture, a->at.u.data(), a->at.v.data(), a->out.data(), n);
+      };
+      row(name, work, expect_plain, "", 0);
+    };
+    raw("raw loop", loop);
+    raw("raw loop, gathers", gathers);
+    const auto sampled = [this](const std::string& name, const filter_model& model,
+                                const std::string& base, double limit) {
+      const auto work = [a = all_, model, set = set_] {
+        bulk::sample(model, a->in, {}, a->at.u, a->at.v, a->out, set);
+      };
+      row(name, work, [a = all_, model] { return a->by_template(model, a->in); }, base, limit);
+    };
+    sampled("binary32", plain, "raw loop", 1.2);
+    for (const char* name : {"d3d11", "vulkan-strict", "cuda"})
+      sampled(name, *find_preset(name), "binary32", 2);
+    for (const storage& s : storages) {
+      const auto codes = std::make_shared<image<std::uint16_t>>(coded(s.code, all_->in));
+      const auto work = [a = all_, codes, s, plain, set = set_] {
+        bulk::sample(plain, s.code, *codes, {}, a->at.u, a->at.v, a->out, set);
+      };
+      row(s.name + " texels", work,
+          [a = all_, codes, s, plain] { return a->by_template(plain, decoded(s.code, *codes)); },
+          "binary32", 1.3);
+    }
+    const auto certified = [a = all_, set = set_] {
+      bulk::sample_certified<exact_rational>({&a->in}, address::clamp, a->at.u, a->at.v, a->out, set);
+    };
+    const auto exactly = [a = all_] { return a->by_rationals(512); };
+    row("exact, certified", certified, exactly, "binary32", 8);
+    to_.add({group_, "exact, certified, to rationals" + name_, n, certified, {}, rationals, 1 / 500.0, {}});
+  }
+
+  static constexpr const char* rationals = "exact, Boost rationals";
+
+ private:
+  void row(const std::string& name, const std::function<void()>& work,
+           const std::function<std::vector<float>()>& right, const std::string& base, double limit) {
+    const auto check = [a = all_, work, right] {
+      work();
+      return a->compare(right());
+    };
+    to_.add({group_, name + name_, n, work, check, base.empty() ? base : base + name_, limit, {}});
+  }
+
+  table& to_;
+  const std::string group_;
+  const std::shared_ptr<lookups> all_;
+  const instruction_set set_;
+  const std::string name_;
+};
+
 }  // namespace
 
 void add_sampling(table& table) {
   const std::string group = "bilinear, 1024^2 x 2, one sample";
-  constexpr int n = 65536, texture = 1024;
-  const auto in = std::make_shared<image<float>>(moments(texture, texture, 2));
-  const auto at = std::make_shared<coordinates>(picture(n, texture));
-  const auto out = std::make_shared<std::vector<float>>(2 * n);
-  const auto expected = [=](const filter_model& model, const image<float>& level) {
-    std::vector<float> values(2 * n);
-    bulk::sample(model, level, {}, at->u, at->v, values, instruction_set::scalar);
-    return values;
-  };
-  const auto compare = [=](const std::vector<float>& right) {
-    return difference(out->data(), right.data(), right.size());
-  };
-  const filter_model plain = *find_preset("exact");
-  std::string base = "bitshade, binary32";
-  if (bulk::has(instruction_set::avx512)) {
-    const auto raw = [&](const char* name, auto f) {
-      const auto work = [=] {
-        f(in->texels.data(), texture, texture, at->u.data(), at->v.data(), out->data(), n);
-      };
-      table.add({group,
-                 name,
-                 n,
-                 work,
-                 [=] {
-                   work();
-                   return compare(expected(plain, *in));
-                 },
-                 "raw AVX-512 loop",
-                 0,
-                 {}});
-    };
-    raw("raw AVX-512 loop", raw_avx512::bilinear_rg);
-    raw("raw AVX-512 loop, gathers", raw_avx512::bilinear_rg_gathers);
-  }
-  const auto add = [&](const std::string& name, const filter_model& model, const std::string& to,
-                       double limit, instruction_set set = instruction_set::best) {
-    const auto work = [=] { bulk::sample(model, *in, {}, at->u, at->v, *out, set); };
-    table.add({group,
-               name,
-               n,
-               work,
-               [=] {
-                 work();
-                 return compare(expected(model, *in));
-               },
-               to,
-               limit,
-               {}});
-  };
-  add(base, plain, "raw AVX-512 loop", 1.2);
+  const auto all = std::make_shared<lookups>();
+  if (bulk::has(instruction_set::avx512))
+    sampling_rows(table, group, all, instruction_set::avx512, ", AVX-512")
+        .add(raw_avx512::bilinear_rg, raw_avx512::bilinear_rg_gathers);
   if (bulk::has(instruction_set::avx2))
-    add("bitshade, binary32, AVX2", plain, base, 0, instruction_set::avx2);
-  add("the template", plain, base, 0, instruction_set::scalar);
-  for (const char* name : {"d3d11", "vulkan-strict", "cuda"})
-    add(name, *find_preset(name), base, 2);
-  for (const storage& s : storages) {
-    const auto codes = std::make_shared<image<std::uint16_t>>(coded(s.code, *in));
-    const auto work = [=] { bulk::sample(plain, s.code, *codes, {}, at->u, at->v, *out); };
-    table.add({group,
-               s.name + " texels",
-               n,
-               work,
-               [=] {
-                 work();
-                 return compare(expected(plain, decoded(s.code, *codes)));
-               },
-               base,
-               1.3,
-               {}});
-  }
-  const auto exactly = [=](std::size_t count) {
-    std::vector<float> values(2 * count);
-    for (std::size_t i = 0; i < 2 * count; ++i)
-      values[i] = bilinear_rational<float, exact_rational>({in.get()}, at->u[i / 2], at->v[i / 2],
-                                                           address::clamp, static_cast<int>(i % 2));
-    return values;
-  };
+    sampling_rows(table, group, all, instruction_set::avx2, ", AVX2")
+        .add(raw_avx2::bilinear_rg, raw_avx2::bilinear_rg_gathers);
+  const auto by_template = [all] { all->out = all->by_template(*find_preset("exact"), all->in); };
+  table.add({group, "the template", n, by_template, {}, "binary32, AVX2", 0, {}});
   constexpr std::size_t few = 32;
-  table.add({group,
-             "exact, Boost rationals",
-             few,
-             [=] {
-               *out = exactly(few);
-               out->resize(2 * n);
+  table.add({group, sampling_rows::rationals, few,
+             [all] {
+               const auto values = all->by_rationals(few);
+               std::ranges::copy(values, all->out.begin());
              },
-             {},
-             base,
-             0,
-             {}});
-  const auto certified = [=] {
-    bulk::sample_certified<exact_rational>({in.get()}, address::clamp, at->u, at->v, *out);
-  };
-  const auto check = [=] {
-    certified();
-    const auto right = exactly(512);
-    return difference(out->data(), right.data(), right.size());
-  };
-  table.add({group, "exact, certified", n, certified, check, base, 8, {}});
-  table.add({group,
-             "exact, certified, to Boost rationals",
-             n,
-             certified,
-             check,
-             "exact, Boost rationals",
-             1 / 500.0,
-             {}});
+             {}, "binary32, AVX2", 0, {}});
 }
 
 }  // namespace bench

@@ -135,7 +135,7 @@ void work(const encoding& e, const rules& r, std::span<const In> in, std::span<O
     p.define = define<What, In, Out>;
     direct = choose(p, wanted, set);
   }
-  in_chunks(in.size(), how.threads, [&](std::size_t begin, std::size_t n) {
+  in_chunks(in.size(), how, [&](std::size_t begin, std::size_t n) {
     if (r.direction != rounding::stochastic) {
       return run<What>(p, direct, in.data() + begin, out.data() + begin, n, set);
     }

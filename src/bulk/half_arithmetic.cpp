@@ -33,7 +33,7 @@ void work(half_operation what, half_codes a, half_codes b, half_codes c, std::sp
     throw std::invalid_argument("bitshade::bulk: the spans differ in size");
   }
   const instruction_set set = resolve(how.set);
-  in_chunks(out.size(), how.threads, [=](std::size_t begin, std::size_t n) {
+  in_chunks(out.size(), how, [=](std::size_t begin, std::size_t n) {
     const half_operands o{a.data() + begin, b.data() + begin, c.data() + begin, out.data() + begin};
     const float_environment environment(float_environment::direction::nearest);
 #if defined(BITSHADE_X86_64)

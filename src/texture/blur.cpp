@@ -34,9 +34,9 @@ struct blur_tables {
     const bool both = job.along == direction::both;
     const std::size_t row =
         both ? blur_job::tile : static_cast<std::size_t>(job.width) * channels;
-    const std::size_t ring = both ? static_cast<std::size_t>(blur_job::group) + taps : 1;
+    const std::size_t ring = both ? static_cast<std::size_t>(blur_job::most) + taps : 1;
     scratch.resize((ring + 1) * (row + blur_job::slack) + taps * channels);
-    lines.resize(static_cast<std::size_t>(blur_job::group) + taps);
+    lines.resize(static_cast<std::size_t>(blur_job::most) + taps);
     job.weights = weights.data();
     job.taps = static_cast<int>(taps);
     job.symmetric = std::equal(weights.begin(), weights.end(), weights.rbegin());

@@ -105,7 +105,9 @@ template <class V, int Taps, int Rows, class Put>
     [&]<int... Line>(std::integer_sequence<int, Line...>) __attribute__((always_inline)) {
       (line.template operator()<Line>(std::make_integer_sequence<int, Rows>{}), ...);
     }(std::make_integer_sequence<int, Taps + Rows - 1>{});
-    for (int r = 0; r < Rows; ++r) put(r, i, sum[r]);
+    const auto store = [&]<int... Row>(std::integer_sequence<int, Row...>)
+        __attribute__((always_inline)) { (put(Row, i, sum[Row]), ...); };
+    store(std::make_integer_sequence<int, Rows>{});
   }
 }
 

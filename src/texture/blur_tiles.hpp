@@ -20,7 +20,7 @@ class blur_tiles {
         margin_(static_cast<std::size_t>(job.taps / 2) * step_),
         ring_row_((job.along == blur_job::direction::both ? blur_job::tile : row_size_) +
                   blur_job::slack),
-        stream_(row_size_ * sizeof(code) % 64 == 0 &&
+        stream_(V::width * sizeof(code) >= 32 && row_size_ * sizeof(code) % 64 == 0 &&
                 row_size_ * sizeof(code) * static_cast<std::size_t>(job.height) >=
                     blur_job::cached_bytes) {}
 
@@ -47,7 +47,7 @@ class blur_tiles {
   float* line(int i) const { return job_.scratch + static_cast<std::size_t>(i) * ring_row_; }
   /// The decoded source of a row of tile, with margins; behind the ring.
   float* source_line() const {
-    const int lines = job_.along == blur_job::direction::both ? blur_job::group + job_.taps : 1;
+    const int lines = job_.along == blur_job::direction::both ? blur_job::most + job_.taps : 1;
     return line(lines);
   }
   code* out_row(int y) const {
@@ -131,8 +131,8 @@ class blur_tiles {
 
   /// Values [at, at + n) of row y summed along the row and rounded; whole vectors are written.
   ///
-  /// A row is decoded, summed and rounded in three loops: one loop of all would fill the
-  /// processor's queues with waiting additions.
+  /// A row is decoded, summed and rounded in three loops where lanes slide: one loop of all would
+  /// fill the processor's queues with waiting additions.
   void sum_across(int y, std::size_t at, std::size_t n, float* to) const {
     if constexpr (sizeof(code) == sizeof(float)) {
       // [from, until): all taps, and all that whole vectors read beyond them, lie within the row.
@@ -148,7 +148,14 @@ class blur_tiles {
         return;
       }
     }
-    sum(buffered(y, at, n), n, to);
+    const float* from = buffered(y, at, n);
+    if constexpr (sizeof(code) != sizeof(float) && !V::slides) {
+      return tap_sum<V>(
+          job_.taps, job_.weights, n,
+          [&](int k) { return from + static_cast<std::size_t>(k) * step_; },
+          [&](std::size_t i, f x) { V::store(to + i, texels_.round(x)); });
+    }
+    sum(from, n, to);
     if constexpr (sizeof(code) == sizeof(float)) return;
     for (std::size_t i = 0; i < n; i += V::width) V::store(to + i, texels_.round(V::load(to + i)));
   }
@@ -190,7 +197,7 @@ class blur_tiles {
 
   /// Values [at, at + n) of all rows in both directions.
   void strip(std::size_t at, std::size_t n) const {
-    const int lines = blur_job::group + job_.taps;
+    const int lines = blur_job::most + job_.taps;
     const auto make = [&](int i) {  // line i of the rows' table
       float* to = line(i % lines);
       const int from = job_.rows[i];
@@ -199,12 +206,17 @@ class blur_tiles {
     };
     const int margin = job_.taps - 1, count = job_.last - job_.first;
     for (int i = 0; i < margin; ++i) make(i);
-    for (int y = 0; y < count; y += blur_job::group) {
-      const int rows = count - y < blur_job::group ? count - y : blur_job::group;
+    for (int y = 0, rows = 0; y < count; y += rows) {
+      rows = rows_at_once(count - y);
       for (int r = 0; r < rows; ++r) make(y + margin + r);
       for (int i = 0; i < rows + margin; ++i) job_.lines[i] = line((y + i) % lines);
       sum_down(n, out_row(job_.first + y) + at, rows);
     }
+  }
+
+  static int rows_at_once(int left) {
+    if (left >= V::blur_rows) return V::blur_rows;
+    return left < blur_job::group ? left : blur_job::group;
   }
 
   /// A vector of sums to the row r of `out`, of which n values exist.
@@ -216,25 +228,32 @@ class blur_tiles {
     for (std::size_t k = 0; i + k < n; ++k) to[k] = last[k];
   }
 
-  template <int Taps>
+  template <int Taps, int Rows = V::blur_rows>
   bool symmetric_down(std::size_t n, code* out, int rows) const {
-    if (!job_.symmetric || job_.taps != Taps || rows != blur_job::group) return false;
+    if (!job_.symmetric || job_.taps != Taps) return false;
+    if (rows != Rows) {
+      if constexpr (Rows > blur_job::group) return symmetric_down<Taps, blur_job::group>(n, out, rows);
+      return false;
+    }
     const auto sums = [&](std::size_t first, std::size_t end, auto put) {
-      row_sums<V, Taps, blur_job::group>(job_.lines, job_.weights, first, end, put);
+      row_sums<V, Taps, Rows>(job_.lines, job_.weights, first, end, put);
     };
     const auto put = [&](int r, std::size_t i, f sum)
                          __attribute__((always_inline)) { put_vector(out, r, i, n, sum); };
-    const std::size_t head = to_line(out);
-    if (!stream_ || n < head + V::width) {
-      sums(0, n, put);
-      return true;
+    const std::size_t row = row_size_, head = stream_ ? to_line(out) : 0;
+    const std::size_t end = n < head ? 0 : head + (n - head) / V::width * V::width;
+    const Texels texels = texels_;
+    if (stream_ && end > 0) {
+      // What the caches cannot keep goes past them, by whole aligned vectors.
+      sums(0, head, put);
+      sums(head, end, [=](int r, std::size_t i, f sum) __attribute__((always_inline)) {
+        texels.stream(out + static_cast<std::size_t>(r) * row + i, sum);
+      });
+    } else {
+      sums(0, end, [=](int r, std::size_t i, f sum) __attribute__((always_inline)) {
+        texels.store(out + static_cast<std::size_t>(r) * row + i, sum);
+      });
     }
-    // What the caches cannot keep goes past them, by whole aligned vectors.
-    sums(0, head, put);
-    const std::size_t end = head + (n - head) / V::width * V::width;
-    sums(head, end, [&](int r, std::size_t i, f sum) __attribute__((always_inline)) {
-      texels_.stream(out + static_cast<std::size_t>(r) * row_size_ + i, sum);
-    });
     sums(end, n, put);
     return true;
   }
@@ -260,8 +279,30 @@ class blur_tiles {
   const Texels texels_{};
   const std::size_t row_size_;
   const std::size_t step_, margin_, ring_row_;
-  const bool stream_;  ///< all rows start alike within a cache line, and there are many of them
+  /// All rows start alike within a cache line, and there are many of them. Of smaller pieces than
+  /// half a line each, some would leave the processor's buffers before their line is whole.
+  const bool stream_;
 };
+
+/// unorm16, without limits where sums cannot pass 65535.5 / 65535 > 1 + 2^-17.
+///
+/// No weight below 0, their sum (as binary32 adds it) at most 1 + 2^-19, values in [0,1]: of 32
+/// taps the products and both sums round by less than 66 * 2^-24, which leaves a sum below
+/// (1 + 2^-19) (1 + 2^-17.95) < 1 + 2^-17.
+template <class V>
+bool unorm16_blur_in(const blur_job& job) {
+  float sum = 0;
+  bool within = job.border >= 0 && job.border <= 1 && job.taps <= 32;
+  for (int k = 0; k < job.taps; ++k) {
+    within = within && job.weights[k] >= 0;
+    sum += job.weights[k];
+  }
+  if (within && sum <= 1 + 0x1p-19f)
+    blur_tiles<V, unorm16_texels<V, false>>(job).run();
+  else
+    blur_tiles<V, unorm16_texels<V>>(job).run();
+  return true;
+}
 
 /// The texels that a set of lanes can load and store.
 template <class V>
@@ -274,7 +315,7 @@ bool blur_in(const blur_job& job) {
     if (job.kind == texels::half)
       blur_tiles<V, half_texels<V>>(job).run();
     else
-      blur_tiles<V, unorm16_texels<V>>(job).run();
+      return unorm16_blur_in<V>(job);
     return true;
   }
   return false;

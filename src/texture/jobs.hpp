@@ -29,10 +29,11 @@ struct blur_job {
   const int* rows;     ///< source row of y = first - radius .. last + radius - 1; -1: the border
   float border;
   float* scratch;       ///< scratch_size(*this) of them
-  const float** lines;  ///< group + taps of them
+  const float** lines;  ///< most + taps of them
 
   static constexpr std::size_t tile = 4096;  ///< values a row: taps + group of them fit the cache
   static constexpr int group = 4;            ///< rows made at once
+  static constexpr int most = 8;             ///< lanes may take up to so many
   static constexpr std::size_t slack = 32;   ///< whole vectors may be read and written
   static constexpr std::size_t cached_bytes = std::size_t{4} << 20;  ///< larger images pass caches by
 };

@@ -7,6 +7,7 @@ namespace bitshade::texture_kernels::avx2 {
 
 struct lanes : bulk_kernels::avx2::lanes32 {
   static constexpr bool slides = false;  // what a slide costs here, a second read does as well
+  static constexpr int blur_rows = 8;  ///< made at once
   static void stream(float* p, f x) { _mm256_stream_ps(p, x); }
   static void stream_words(std::uint16_t* p, __m128i x) {
     _mm_stream_si128(reinterpret_cast<__m128i*>(p), x);

@@ -7,6 +7,7 @@ namespace bitshade::texture_kernels::avx512 {
 
 struct lanes : bulk_kernels::avx512::lanes32 {
   static constexpr bool slides = true;
+  static constexpr int blur_rows = 4;  ///< made at once
 
   /// Lanes Count, Count + 1 .. of `low` followed by `high`.
   template <int Count>

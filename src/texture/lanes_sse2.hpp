@@ -7,6 +7,7 @@ namespace bitshade::texture_kernels::sse2 {
 
 struct lanes : bulk_kernels::sse2::lanes32 {
   static constexpr bool slides = false;
+  static constexpr int blur_rows = 4;  ///< made at once
   static void stream(float* p, f x) { _mm_stream_ps(p, x); }
   static void fence() { _mm_sfence(); }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <thread>
 
 #include "bitshade/texture/mip.hpp"
+#include "bulk/dispatch.hpp"
 #include "bulk/float_environment.hpp"
 #include "texture/dispatch.hpp"
 
@@ -32,7 +32,7 @@ void require_level(const image<Texel>& in, row_range rows, const image<Texel>& o
 }
 
 /// Calls level(l, rows) for every level over the first: first for blocks of rows that halve evenly
-/// through several levels, each block by one thread, then for what is left.
+/// through several levels, each block by one thread, in turn; then for what is left.
 template <class Texel, class Level>
 void fill_levels(std::span<image<Texel>> levels, const execution& how, Level level) {
   if (levels.empty()) return;
@@ -44,25 +44,14 @@ void fill_levels(std::span<image<Texel>> levels, const execution& how, Level lev
     block *= 2;
     ++deep;
   }
-  const auto make = [&](int first, int last) {
-    for (int b = first; b < last; ++b) {
-      int rows = block;
-      for (std::size_t l = 1; l < deep; ++l) {
-        rows /= 2;
-        level(l, row_range{b * rows, (b + 1) * rows});
-      }
+  in_pieces(how, static_cast<std::size_t>(height / block), [&](std::size_t k) {
+    const int b = static_cast<int>(k);
+    int rows = block;
+    for (std::size_t l = 1; l < deep; ++l) {
+      rows /= 2;
+      level(l, row_range{b * rows, (b + 1) * rows});
     }
-  };
-  const int blocks = height / block;
-  const int crew = std::min<int>(static_cast<int>(std::max(1U, how.threads)), blocks);
-  const auto start = [&](int k) {
-    return static_cast<int>(static_cast<long long>(blocks) * k / crew);
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int k = 1; k < crew; ++k) others.emplace_back(make, start(k), start(k + 1));
-    make(start(0), start(1));
-  }
+  });
   for (std::size_t l = deep; l < levels.size(); ++l) level(l, row_range{0, levels[l].height});
 }
 

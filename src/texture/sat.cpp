@@ -6,7 +6,9 @@
 #include <thread>
 #include <vector>
 
+#include "bulk/dispatch.hpp"
 #include "bulk/float_environment.hpp"
+#include "bulk/pause.hpp"
 #include "texture/dispatch.hpp"
 
 namespace bitshade::bulk {
@@ -22,32 +24,26 @@ using texture_kernels::texels;
 class sat_strips {
  public:
   sat_strips(const texture_kernels::kernels& kernels, const sat_job& whole, int height,
-             unsigned threads)
-      : kernels_(kernels), whole_(whole), height_(height) {
+             const execution& how)
+      : kernels_(kernels), whole_(whole), height_(height), how_(how) {
     const auto channels = static_cast<std::size_t>(whole.channels);
     // Strips begin at whole cache lines and whole texels.
     const std::size_t step = 64 * channels;
-    const std::size_t wanted = std::max<std::size_t>(1, std::min<std::size_t>(threads, whole.row_size / step));
+    const std::size_t wanted = std::max<std::size_t>(1, std::min<std::size_t>(threads_of(how), whole.row_size / step));
     width_ = (whole.row_size / wanted + step - 1) / step * step;
     count_ = (whole.row_size + width_ - 1) / width_;
     carry_.assign(static_cast<std::size_t>(height) * channels, nothing());
+    above_.assign(whole.row_size, nothing());
     done_ = std::vector<std::atomic<int>>(count_);
   }
 
   bool run() {
-    std::atomic<std::size_t> next = 0;
     std::atomic<bool> known = true;
-    const auto work = [&] {
+    // Begun in order, so that a strip's left neighbour is always under way.
+    in_pieces(how_, count_, [&](std::size_t k) {
       const float_environment environment(float_environment::direction::nearest);
-      // Taken in order, so that a strip's left neighbour is always under way.
-      for (std::size_t k = next++; k < count_; k = next++) {
-        if (!sum(k)) known = false;
-      }
-    };
-    std::vector<std::jthread> crew;
-    for (std::size_t k = 1; k < count_; ++k) crew.emplace_back(work);
-    work();
-    crew.clear();
+      if (!sum(k)) known = false;
+    });
     return known;
   }
 
@@ -60,8 +56,7 @@ class sat_strips {
     sat_job job = whole_;
     job.first = k * width_;
     job.n = std::min(width_, whole_.row_size - job.first);
-    std::vector<std::uint32_t> above(job.n, nothing());
-    job.above = above.data();
+    job.above = above_.data() + job.first;
     bool known = true;
     for (int y = 0; y < height_; y += sat_job::band) {
       if (k > 0) wait(done_[k - 1], y);
@@ -77,15 +72,19 @@ class sat_strips {
   /// Bands take microseconds: worth asking a few times before giving the core away.
   static void wait(const std::atomic<int>& rows, int y) {
     for (int tries = 0; rows.load(std::memory_order_acquire) <= y; ++tries) {
-      if (tries > 1000) std::this_thread::yield();
+      if (tries < 1000)
+        pause();
+      else
+        std::this_thread::yield();
     }
   }
 
   const texture_kernels::kernels& kernels_;
   const sat_job whole_;
   const int height_;
+  const execution& how_;
   std::size_t width_ = 0, count_ = 0;
-  std::vector<std::uint32_t> carry_;
+  std::vector<std::uint32_t> carry_, above_;
   std::vector<std::atomic<int>> done_;
 };
 
@@ -103,7 +102,7 @@ bool run_kernel(sums what, texels kind, const image<In>& in, image<Out>& out,
   job.out = out.texels.data();
   job.row_size = in.row_size();
   job.channels = in.channels;
-  return sat_strips(*kernels, job, in.height, how.threads).run();
+  return sat_strips(*kernels, job, in.height, how).run();
 }
 
 template <class T>

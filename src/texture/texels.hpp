@@ -36,12 +36,12 @@ struct half_texels {
   [[gnu::always_inline]] f round(f x) const { return V::from_half(V::template to_half<0>(x)); }
 };
 
-/// unorm16, rounded once each way.
+/// unorm16, rounded once each way; numbers known to be in [0,1] need no limits.
 ///
 /// fma(x, 65535, 2^23) has the code in its low bits, rounded at the exact product's unit. c / 65535
 /// is c * high + c * low with high + low = 1 / 65535 to 2^-49 of it, while the quotient of a code
 /// keeps 2^-41 of itself away from the middle between two numbers: tests try every code.
-template <class V>
+template <class V, bool Limits = true>
 struct unorm16_texels {
   using f = typename V::f;
   using code = std::uint16_t;
@@ -61,7 +61,8 @@ struct unorm16_texels {
 
  private:
   [[gnu::always_inline]] f sum(f x) const {
-    return V::fma(V::min(V::max(x, V::all(0.0f)), V::all(1.0f)), scale, magic);
+    if constexpr (Limits) x = V::min(V::max(x, V::all(0.0f)), V::all(1.0f));
+    return V::fma(x, scale, magic);
   }
   [[gnu::always_inline]] f value(f c) const {
     return V::fma(c, V::all(high), V::mul(c, V::all(low)));

@@ -21,12 +21,15 @@ enum class instruction_set : std::uint8_t {
 /// Whether this processor, and this build, can run a set.
 bool has(instruction_set set);
 
-/// How a span is worked on. The result does not depend on `threads` or `set`.
+class workers;
+
+/// How a span is worked on. The result does not depend on `threads`, `crew` or `set`.
 struct execution {
   std::uint64_t seed = 0;           ///< key of stochastic rounding
   std::uint64_t first_counter = 0;  ///< element i draws random_bits(seed, first_counter + i)
   unsigned threads = 1;             ///< more than one only when asked
   instruction_set set = instruction_set::best;
+  workers* crew = nullptr;  ///< threads that wait between calls (workers.hpp), instead of new ones
 };
 
 /// out[i] = round_to(to, in[i]), converted to out's type to nearest even.

@@ -112,6 +112,29 @@ TEST_CASE("bulk::blur keeps its bits where results pass the caches by") {
   }
 }
 
+TEST_CASE("bulk::blur limits unorm16 sums wherever weights or the border can leave [0,1]") {
+  const bulk::texel_code code{unorm16::value, {}};
+  image<std::uint16_t> in(70, 20);
+  for (std::size_t i = 0; i < in.texels.size(); ++i)
+    in.texels[i] = i % 3 == 0 ? 0 : static_cast<std::uint16_t>(65535 - i % 2);
+  const kernel sharp{{-0.5, 2, -0.5}}, heavy{{0.25, 0.5, 0.26}}, barely{{0.25, 0.5, 0.25 + 0x1p-16}},
+      plain{{0.25, 0.5, 0.25}}, tight{{0.25, 0.5 + 0x1p-20, 0.25}};
+  const kernel many{std::vector<double>(41, 1.0 / 41)};
+  for (const kernel* w : {&sharp, &heavy, &barely, &plain, &tight, &many}) {
+    for (const float border : {0.0f, 1.0f, 1.5f, -3.0f}) {
+      image<std::uint16_t> expected(70, 20);
+      bulk::blur(code, in, *w, address::border, {0, 20}, expected, bulk::instruction_set::scalar,
+                 border);
+      for (const auto set : bulk_cases::sets()) {
+        CAPTURE(w->weights.size(), w->weights[0], border, bulk_cases::name_of(set));
+        image<std::uint16_t> out(70, 20);
+        bulk::blur(code, in, *w, address::border, {0, 20}, out, set, border);
+        CHECK(difference(out, expected) == "");
+      }
+    }
+  }
+}
+
 TEST_CASE("bulk::blur refuses what is no blur") {
   const image<float> in(4, 4);
   image<float> out(4, 4), other(4, 5);

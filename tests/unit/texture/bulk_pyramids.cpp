@@ -1,6 +1,7 @@
 // Mip levels' and summed-area tables' kernels give the templates' bits.
 #include "support/catch.hpp"
 
+#include "bitshade/arithmetic/workers.hpp"
 #include "bitshade/formats/name.hpp"
 #include "bitshade/texture/bulk.hpp"
 #include "bitshade/texture/sat.hpp"
@@ -83,10 +84,12 @@ TEST_CASE("bulk::fill_mips gives mip_chain's levels on any number of threads") {
     for (const auto filter : {mip_filter::box, mip_filter::centre, mip_filter::area}) {
       const image<float> base = noise(width, height, 2, 11);
       const auto expected = mip_chain<float>(base, filter, [](std::span<float>) {});
-      for (const unsigned threads : {1u, 2u, 7u}) {
+      bulk::workers crew(2);
+      for (const unsigned threads : {0u, 1u, 2u, 7u}) {  // 0: those that wait
         auto levels = expected;
         for (std::size_t l = 1; l < levels.size(); ++l) std::ranges::fill(levels[l].texels, -1.0f);
-        bulk::fill_mips(levels, filter, {.threads = threads});
+        bulk::fill_mips(levels, filter,
+                        {.threads = threads, .crew = threads == 0 ? &crew : nullptr});
         for (std::size_t l = 1; l < levels.size(); ++l) {
           CAPTURE(width, height, static_cast<int>(filter), threads, l);
           CHECK(difference(levels[l], expected[l]) == "");
@@ -108,16 +111,18 @@ TEST_CASE("bulk::fill_mips gives mip_chain's levels on any number of threads") {
 }
 
 TEST_CASE("bulk::sum_area gives the running table's bits on any number of threads") {
+  bulk::workers crew(4);
   for (const auto [width, height] : sizes) {
     for (const int channels : {1, 2, 3, 4}) {
       image<float> in = noise(width, height, channels, 9, channels == 4);
       in.texels.front() = -0.0f;
       const image<float> expected = running(in);
       for (const auto set : bulk_cases::sets()) {
-        for (const unsigned threads : {1u, 2u, 5u}) {
+        for (const unsigned threads : {0u, 1u, 2u, 5u}) {  // 0: those that wait
           CAPTURE(width, height, channels, bulk_cases::name_of(set), threads);
           image<float> out(width, height, channels);
-          bulk::sum_area(in, out, {.threads = threads, .set = set});
+          bulk::sum_area(in, out,
+                         {.threads = threads, .set = set, .crew = threads == 0 ? &crew : nullptr});
           CHECK(difference(out, expected) == "");
         }
       }
