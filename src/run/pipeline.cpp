@@ -6,6 +6,7 @@
 #include "bitshade/shadow/bleeding.hpp"
 #include "bitshade/shadow/layer_packing.hpp"
 #include "io/error.hpp"
+#include "io/text.hpp"
 #include "run/engines.hpp"
 #include "run/parallel.hpp"
 
@@ -76,7 +77,9 @@ void note_bias(const configuration& how, const encoding& format, cell& result) {
                                ? std::ldexp(1.0, -format.fraction_bits - 2)  // in [1/2, 1)
                                : decode(format, 1) / 2;
   if (how.depth_bias >= half_step) return;
-  result.notes.push_back(how.format + " moves depths by up to " + detail::shortest(half_step) +
+  const double digit = std::pow(10.0, std::floor(std::log10(half_step)) - 1);
+  const double enough = std::ceil(half_step / digit) * digit;  // two digits: a bias to copy
+  result.notes.push_back(how.format + " moves depths by up to " + brief(enough, 2) +
                          ", more than the depth bias of " + detail::shortest(how.depth_bias) +
                          ": lit surfaces may shade themselves");
 }
