@@ -16,15 +16,23 @@ struct lanes : bulk_kernels::avx2::lanes32 {
   static void fence() { _mm_sfence(); }
 
   template <int Channels>
-  static f lefts(f a, f b) {
+  static f lefts(f a, f b) { return in_order<Channels>(mixed_lefts<Channels>(a, b)); }
+  template <int Channels>
+  static f rights(f a, f b) { return in_order<Channels>(mixed_rights<Channels>(a, b)); }
+  /// The same in an order of their own, which sums of them keep; and the sums' way back.
+  template <int Channels>
+  static f mixed_lefts(f a, f b) {
     if constexpr (Channels == 4) return _mm256_permute2f128_ps(a, b, 0x20);
-    const f mixed = Channels == 1 ? _mm256_shuffle_ps(a, b, 0x88) : pairs<0>(a, b);
-    return value(_mm256_permute4x64_epi64(bits(mixed), 0xd8));
+    return Channels == 1 ? _mm256_shuffle_ps(a, b, 0x88) : pairs<0>(a, b);
   }
   template <int Channels>
-  static f rights(f a, f b) {
+  static f mixed_rights(f a, f b) {
     if constexpr (Channels == 4) return _mm256_permute2f128_ps(a, b, 0x31);
-    const f mixed = Channels == 1 ? _mm256_shuffle_ps(a, b, 0xdd) : pairs<15>(a, b);
+    return Channels == 1 ? _mm256_shuffle_ps(a, b, 0xdd) : pairs<15>(a, b);
+  }
+  template <int Channels>
+  static f in_order(f mixed) {
+    if constexpr (Channels == 4) return mixed;
     return value(_mm256_permute4x64_epi64(bits(mixed), 0xd8));
   }
   /// Halves of 128 bits: the first (0) or second (15) of each pair, a's and b's in turn.

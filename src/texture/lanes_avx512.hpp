@@ -49,6 +49,13 @@ struct lanes : bulk_kernels::avx512::lanes32 {
     return _mm512_permutex2var_ps(a, places, b);
   }
 
+  template <int Channels>
+  static f mixed_lefts(f a, f b) { return lefts<Channels>(a, b); }
+  template <int Channels>
+  static f mixed_rights(f a, f b) { return rights<Channels>(a, b); }
+  template <int Channels>
+  static f in_order(f x) { return x; }
+
   static void transpose(f (&x)[16]) {
     f t[16];
     for (int k = 0; k < 16; k += 2) {

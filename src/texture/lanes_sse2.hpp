@@ -24,6 +24,13 @@ struct lanes : bulk_kernels::sse2::lanes32 {
     return b;
   }
 
+  template <int Channels>
+  static f mixed_lefts(f a, f b) { return lefts<Channels>(a, b); }
+  template <int Channels>
+  static f mixed_rights(f a, f b) { return rights<Channels>(a, b); }
+  template <int Channels>
+  static f in_order(f x) { return x; }
+
   static void transpose(f (&x)[4]) { _MM_TRANSPOSE4_PS(x[0], x[1], x[2], x[3]); }
 
   static constexpr bool samples = false;

@@ -17,9 +17,11 @@ void mip_rows(const mip_job& job) {
                          __attribute__((always_inline)) {
     const auto pairs = [&](const code* p) __attribute__((always_inline)) {
       const f a = texels.load(p), b = texels.load(p + V::width);
-      return V::add(V::template lefts<Channels>(a, b), V::template rights<Channels>(a, b));
+      return V::add(V::template mixed_lefts<Channels>(a, b),
+                    V::template mixed_rights<Channels>(a, b));
     };
-    texels.store(out, V::mul(V::add(pairs(upper), pairs(lower)), quarter));
+    const f sum = V::template in_order<Channels>(V::add(pairs(upper), pairs(lower)));
+    texels.store(out, V::mul(sum, quarter));
   };
   for (int y = job.first; y < job.last; ++y) {
     const code* upper = static_cast<const code*>(job.in) + 2 * static_cast<std::size_t>(y) * in_row;
@@ -68,7 +70,7 @@ bool mip_in(const mip_job& job) {
   if (job.kind == texels::binary32) return mip_of<V, native_texels<V>>(job);
   if constexpr (V::has_fma) {
     if (job.kind == texels::half) return mip_of<V, half_texels<V>>(job);
-    return mip_of<V, unorm16_texels<V>>(job);
+    return mip_of<V, unorm16_texels<V, false>>(job);  // a mean of numbers in [0,1] is another
   }
   return false;
 }

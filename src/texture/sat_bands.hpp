@@ -55,6 +55,9 @@ class sat_band {
   using vector = typename Sums::vector;
   static constexpr int width = static_cast<int>(V::width);
   static constexpr auto lanes = V::width;
+  static constexpr std::size_t in_line = 64 / sizeof(float);
+  /// Where lines take several vectors, rows of codes leave room in the caches: half of them is read.
+  static constexpr bool streams = in_line == lanes || sizeof(code) == sizeof(float);
   static constexpr std::size_t ahead = 256 / sizeof(code);  ///< fetched early: sixteen rows are more than the processor foresees
 
   static float number(std::uint32_t bits) { return __builtin_bit_cast(float, bits); }
@@ -74,12 +77,10 @@ class sat_band {
         return sums_.load(in_ + row(r) + i);
       };
       const std::size_t head = to_line();
-      if (lanes * sizeof(float) == 64 && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
+      if (streams && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
         // Whole lines, past the caches: so many rows at once would throw each other out of them.
-        if (head > 0) partial(sum, above, 0, head);
-        for (i = head; i + lanes <= job_.n; i += lanes) {
-          block(sum, above + i, width, load, [&](int r, f x) { V::stream(out_ + row(r) + i, x); });
-        }
+        for (; i < head; i += lanes) partial(sum, above + i, i, head - i < lanes ? head - i : lanes);
+        for (i = head; i + in_line <= job_.n; i += in_line) lines(sum, above, i);
         V::fence();
       } else {
         for (; i + lanes <= job_.n; i += lanes) {
@@ -97,6 +98,27 @@ class sat_band {
         carry[r * Channels + c] = __builtin_bit_cast(std::uint32_t, at[r]);
       }
     }
+  }
+
+  /// A block that fills whole lines, however many vectors that takes.
+  [[gnu::always_inline]] void lines(vector (&sum)[Channels], float* above, std::size_t i) const {
+    alignas(64) float line[width][in_line];
+    for (std::size_t k = 0; k < in_line; k += lanes) {
+      const auto load = [&](int r) {
+        if (k == 0) prefetch(r, i);
+        return sums_.load(in_ + row(r) + i + k);
+      };
+      block(sum, above + i + k, width, load, [&](int r, f x) {
+        if constexpr (in_line == lanes)
+          V::stream(out_ + row(r) + i, x);
+        else
+          V::store(line[r] + k, x);
+      });
+    }
+    if constexpr (in_line == lanes) return;
+    for (int r = 0; r < width; ++r)
+      for (std::size_t k = 0; k < in_line; k += lanes)
+        V::stream(out_ + row(r) + i + k, V::load(line[r] + k));
   }
 
   /// What comes `ahead` values later: in the row, or where the band below begins. An address beyond

@@ -85,8 +85,9 @@ std::uint64_t rounder::bits(bool flush, bitshade::overflow policy) const {
   const bool ocp = e_.special == bitshade::specials::single_nan;
   const std::uint64_t sign = negative_ && e_.has_sign ? std::uint64_t{1} << (e_.width - 1) : 0;
   const std::uint64_t exponent_ones = binary ? ones(e_.exponent_bits) << e_.fraction_bits : 0;
-  const std::uint64_t nan = ocp ? exponent_ones | ones(e_.fraction_bits)
-                                : exponent_ones | (std::uint64_t{1} << (e_.fraction_bits - 1));
+  const std::uint64_t nan = ocp       ? exponent_ones | ones(e_.fraction_bits)
+                            : !binary ? 0  // norms and integers have no fraction to put it in
+                                      : exponent_ones | (std::uint64_t{1} << (e_.fraction_bits - 1));
   const std::uint64_t infinity = ocp ? nan : exponent_ones;
   const std::uint64_t largest = ocp ? nan - 1 : exponent_ones - 1;
   if (nan_) return binary ? nan : 0;

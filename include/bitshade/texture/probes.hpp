@@ -47,13 +47,15 @@ inline void orthogonalise(float& ux, float& vx, float& uy, float& vy) {
   vy = static_cast<float>(cosine * d - sine * b);
 }
 
-/// Feline: probes on the major axis of the ellipse whose radii are `major` and `minor`, so far
-/// apart that their own footprints, of the minor radius, cover it; a Gaussian e^(-2 r^2), r = 1 at
-/// the ellipse's end.
+/// Feline, as [McCormack99b] 3.1 has it: probes on the major axis of the ellipse, so far apart that
+/// their own footprints, of the minor radius, cover it. Radii are 1 texel at least.
 ///
-///   n = nearest(2 major/minor - 1), limited (then the minor radius grows to 2 major/(n + 1));
-///   places spread over 2 (major - minor), level log2 minor
+///   n = floor(2 major/minor - 1 + 1/2), limited; where that is fewer than 2 major/minor - 1,
+///   minor' = 2 major/(n + 1); level log2 minor'; places on 2 (major - minor'), (n - 1) equal steps;
+///   weights e^(-alpha d^2), d = 1 at the ellipse's end; alpha = 2, EWA's
 inline void plan_feline(probe_plan& plan, float major, float minor, float cap, log2_rule log2) {
+  major = std::max(major, 1.0f);
+  minor = std::max(minor, 1.0f);
   const bool limited = !(2 * major <= (cap + 1) * minor);
   const float wanted = limited ? cap : std::max(1.0f, 2 * major / minor - 1);
   plan.count = std::max(1, std::min(texel_floor(wanted + 0.5f), static_cast<int>(cap)));
@@ -78,12 +80,20 @@ inline void plan_feline(probe_plan& plan, float major, float minor, float cap, l
 
 }  // namespace probe_detail
 
+/// One probe where Feline's level is beyond the `last`, at the texture's own resolution there.
+inline void limit_feline(probe_plan& plan, int last) {
+  if (plan.lambda <= static_cast<float>(last)) return;
+  probe_plan one;
+  one.lambda = plan.lambda;
+  plan = one;
+}
+
 /// Ratio, number and place of the probes by one rule.
 ///
 /// Shapes   1 <= count <= min(limit, max_probes).
 /// Policy   weights sum to 1 up to count roundings; probes are symmetric about the centre.
 /// Failure  none: derivatives that are not finite, or zero, give one probe at level 0.
-/// Source   [Vulkan], [SwiftShader], [D3D11] 7.18.11, [McCormack99] (Feline).
+/// Source   [Vulkan], [SwiftShader], [D3D11] 7.18.11, [McCormack99b] 3.1 (Feline).
 inline probe_plan plan_probes(anisotropy_rule rule, log2_rule log2, const gradients& g, int width,
                               int height, int limit) {
   derivative_lengths d(g, width, height);

@@ -120,8 +120,10 @@ T sample_gradients(const filter_model& model, std::span<const image<T>> chain, c
                                         state));
                                   }));
   }
-  const probe_plan plan =
+  probe_plan plan =
       plan_probes(model.anisotropy, model.log2, g, base.width, base.height, state.max_anisotropy);
+  if (model.anisotropy == anisotropy_rule::feline)
+    limit_feline(plan, static_cast<int>(chain.size()) - 1);
   const auto level = [&](int l) {
     T at_u = u + static_cast<T>(plan.first) * static_cast<T>(plan.du);
     T at_v = v + static_cast<T>(plan.first) * static_cast<T>(plan.dv);

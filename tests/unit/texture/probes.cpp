@@ -27,7 +27,7 @@ gradients stretched(std::mt19937& random, double length, double ratio) {
 
 TEST_CASE("Feline: weights are a Gaussian of the place on the axis, symmetric, summing to 1") {
   for (int n = 2; n <= 16; ++n) {
-    const double major = 8, minor = 16.0 / (n + 1);  // n = 2 major/minor - 1
+    const double major = 16, minor = 32.0 / (n + 1);  // n = 2 major/minor - 1
     const probe_plan plan = feline({major / 64, 0, 0, minor / 64});
     REQUIRE(plan.count == n);
     REQUIRE_FALSE(plan.uniform);
@@ -59,8 +59,37 @@ TEST_CASE("Feline: one probe where nothing is stretched, none beyond the limit")
   const probe_plan limited = feline({42.0 / 64, 0, 0, 1.0 / 64}, 6);
   CHECK(limited.count == 6);
   CHECK(limited.lambda == std::log2(12.0f));         // the minor radius grew to 2 * 42 / 7
-  CHECK(feline({1.0 / 64, 0, 0, 0}, 4).count == 4);  // an empty minor axis
+  CHECK(feline({8.0 / 64, 0, 0, 0}, 4).count == 4);  // an empty minor axis
   CHECK(feline({0, 0, 0, 0}).count == 1);
+}
+
+TEST_CASE("Feline: a radius below a texel counts as one") {
+  const probe_plan narrow = feline({4.0 / 64, 0, 0, 0.25 / 64});
+  CHECK(narrow.count == 7);  // 2 * 4 / 1 - 1, not 31
+  CHECK(narrow.lambda == 0);
+  CHECK(narrow.first == -0.75f);  // the last footprint, of radius 1, ends where the ellipse does
+  const probe_plan magnified = feline({0.5 / 64, 0, 0, 0.125 / 64});
+  CHECK(magnified.count == 1);
+  CHECK(magnified.lambda == 0);
+}
+
+TEST_CASE("Feline: one probe, of the coarsest level, where the ellipse's own is coarser still") {
+  image<double> in(16, 16, 1);
+  std::mt19937 random(3);
+  for (double& t : in.texels) t = static_cast<double>(random() >> 8) * 0x1p-24;
+  auto chain = mip_chain(in, mip_filter::box, [](std::span<double>) {});
+  chain.resize(3);  // 16, 8, 4: probes apart see other texels
+  sampler_state state;
+  state.mips = mip_selection::linear;
+  state.max_anisotropy = 16;
+  filter_model m;
+  m.anisotropy = anisotropy_rule::feline;
+  // Radii 12 and 4.5 texels: log2 4.5 is beyond level 2; at 4 it is not.
+  const auto at = [&](double minor) {
+    return sample_gradients<double>(m, chain, 0.4, 0.3, {12.0 / 16, 0, 0, minor / 16}, state, 0);
+  };
+  CHECK(at(4.5) == sample_level<double>(m, chain.back(), 0.4, 0.3, state, 0));
+  CHECK(at(4) != sample_level<double>(m, chain.back(), 0.4, 0.3, state, 0));
 }
 
 TEST_CASE("the ellipse's axes are orthogonal and span the same ellipse") {
