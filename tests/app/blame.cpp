@@ -35,8 +35,9 @@ TEST_CASE("blame tells the store of a summed-area table from its running sums") 
                     "savsm", "--format", "half", "--msaa", "2", "--out", folder.path().string()});
   CAPTURE(done.err);
   REQUIRE(done.status == 0);
+  const json found = json::parse(done.out);
   std::string stages;
-  for (const auto& s : json::parse(done.out)["stages"]) stages += s["stage"].get<std::string>() + " ";
+  for (const auto& s : found["stages"]) stages += s["stage"].get<std::string>() + " ";
   CHECK(stages == "store resolve sums filter shading ");
   const auto refused = run_bitshade({"blame", "garden", "--technique", "savsm", "--weight-bits", "8"});
   CHECK(refused.status == 2);

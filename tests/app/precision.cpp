@@ -67,7 +67,8 @@ TEST_CASE("precision tells a summed-area table's store from its sums, and search
   CAPTURE(done.err);
   REQUIRE(done.status == 0);
   std::map<std::string, int> bits;
-  for (const auto& s : json::parse(done.out)["on_scene"])
+  const json found = json::parse(done.out);
+  for (const auto& s : found["on_scene"])
     bits[s["stage"].get<std::string>() + " " + s["unit"].get<std::string>()] = s["found_bits"];
   CAPTURE(done.out);
   REQUIRE(bits.size() == 6);
