@@ -17,13 +17,8 @@ struct outcome {
   int status = 0;
 };
 
-/// Runs `bitshade round` with a text as standard input; standard error joins standard output.
-outcome round_text(const std::string& input, const std::string& options) {
-  std::string path = (std::filesystem::temp_directory_path() / "bitshade_round_XXXXXX").string();
-  ::close(::mkstemp(path.data()));
-  std::ofstream(path, std::ios::binary) << input;
-  const std::string line =
-      std::string(BITSHADE_COMMAND) + " round " + options + " < " + path + " 2>&1";
+/// Runs a command line and takes what it prints.
+outcome run(const std::string& line) {
   outcome result;
   std::FILE* pipe = ::popen(line.c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -31,6 +26,15 @@ outcome round_text(const std::string& input, const std::string& options) {
   for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
     result.out.append(buffer.data(), n);
   result.status = ::pclose(pipe) >> 8;
+  return result;
+}
+
+/// Runs `bitshade round` with a text as standard input; standard error joins standard output. `variables` go before it.
+outcome round_text(const std::string& input, const std::string& options, const std::string& variables = "") {
+  std::string path = (std::filesystem::temp_directory_path() / "bitshade_round_XXXXXX").string();
+  ::close(::mkstemp(path.data()));
+  std::ofstream(path, std::ios::binary) << input;
+  const outcome result = run(variables + ' ' + BITSHADE_COMMAND + " round " + options + " < " + path + " 2>&1");
   std::remove(path.c_str());
   return result;
 }
@@ -112,3 +116,27 @@ TEST_CASE("round names the line that it cannot read") {
   for (const char* seed : {"-1", "18446744073709551616", "1.5"})
     CHECK(round_text("1\n", "--format half --rounding stochastic --seed=" + std::string(seed)).status == 2);
 }
+
+#if defined(BITSHADE_HOSTILE_PRELOAD)
+TEST_CASE("hard case 42: round answers the same in a hostile environment and another locale") {
+  const std::string hostile = "LC_ALL=de_DE.UTF-8 LD_PRELOAD=" BITSHADE_HOSTILE_PRELOAD;
+  // It reaches a program: 1 / 3 is rounded up there.
+  const std::string third = "awk 'BEGIN { printf \"%.17g\", 1 / 3 }'";
+  REQUIRE(run(hostile + ' ' + third).out != run(third).out);
+  std::string input = "0.1\n-0.1\n1/3\n-1/65535\n65519.9999999\n0x1.8p-24\n-1e-7\n1e-320\n4.9e-324\n1e400\nnan\n-0\n";
+  for (int i = 1; i < 50; ++i) input += std::to_string(i) + "/97\n-0x" + std::to_string(i) + ".8p-14\n";
+  for (const char* format : {"half", "binary32", "binary64", "bfloat16", "fp8_e4m3", "e2m52", "unorm16", "snorm32", "fixed4.12"}) {
+    for (const char* direction : {"nearest-even", "nearest-away", "toward-zero", "up", "down", "to-odd", "stochastic"}) {
+      for (const char* rest : {"", " --subnormal flush --overflow saturate", " --json"}) {
+        const std::string options = std::string("--format ") + format + " --rounding " + direction + rest;
+        INFO(options);
+        const outcome calm = round_text(input, options), troubled = round_text(input, options, hostile);
+        CHECK(calm.status == 0);
+        CHECK(troubled.status == 0);
+        CHECK(troubled.out == calm.out);
+      }
+    }
+  }
+  CHECK(run(hostile + ' ' + BITSHADE_COMMAND + " formats --json").out == run(BITSHADE_COMMAND " formats --json").out);
+}
+#endif

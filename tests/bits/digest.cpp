@@ -1,5 +1,5 @@
 // Digests of what the headers compute, one a line: the same from every compiler, optimisation and instruction set, and
-// in a hostile environment (`digest --hostile`). CMakeLists.txt builds it in several ways and compares what it prints.
+// in a hostile environment (`digest up`, down or zero). CMakeLists.txt builds it in several ways and compares what it prints.
 #include <cfenv>
 #include <cstdio>
 #include <cstring>
@@ -169,8 +169,8 @@ void packs() {
 }  // namespace
 
 int main(int argc, char* argv[]) {
-  if (argc > 1 && std::strcmp(argv[1], "--hostile") == 0) {
-    std::fesetround(FE_UPWARD);
+  if (argc > 1) {
+    std::fesetround(std::strcmp(argv[1], "up") == 0 ? FE_UPWARD : std::strcmp(argv[1], "down") == 0 ? FE_DOWNWARD : FE_TOWARDZERO);
 #if defined(__SSE2__)
     _mm_setcsr(_mm_getcsr() | 0x8040);  // flush to zero, denormals are zero
 #endif

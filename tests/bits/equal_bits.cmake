@@ -1,11 +1,11 @@
-# Runs each of PROGRAMS twice, the second time in a hostile environment, and compares all that they print.
+# Runs each of PROGRAMS in peace and in three hostile environments, and compares all that they print.
 list(LENGTH PROGRAMS count)
 if(count LESS 2 OR PROGRAMS MATCHES ";$")
   message(FATAL_ERROR "nothing to compare with: only one compiler is installed")
 endif()
 set(expected "")
 foreach(program IN LISTS PROGRAMS)
-  foreach(environment "" "--hostile")
+  foreach(environment "" up down zero)
     execute_process(COMMAND ${program} ${environment} OUTPUT_VARIABLE got RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
       message(FATAL_ERROR "${program} ${environment}: exit status ${status}")
