@@ -35,7 +35,8 @@ void work(half_operation what, half_codes a, half_codes b, half_codes c, std::sp
   const instruction_set set = resolve(how.set);
   in_chunks(out.size(), how, [=](std::size_t begin, std::size_t n) {
     const half_operands o{a.data() + begin, b.data() + begin, c.data() + begin, out.data() + begin};
-    const float_environment environment(float_environment::direction::nearest);
+    const float_environment environment(what == half_operation::fma ? float_environment::direction::toward_zero
+                                                                    : float_environment::direction::nearest);
 #if defined(BITSHADE_X86_64)
     if (set == instruction_set::avx512) return bulk_kernels::avx512::half_arithmetic(what, o, n);
     if (set == instruction_set::avx2) return bulk_kernels::avx2::half_arithmetic(what, o, n);

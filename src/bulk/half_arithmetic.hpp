@@ -1,4 +1,5 @@
-// Loops over binary16 codes for one instruction set; the processor must round to nearest and keep subnormals.
+// Loops over binary16 codes for one instruction set; the processor must keep subnormals and round to nearest, for fma
+// toward zero.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@ template <class V, half_operation Operation>
   if constexpr (Operation == half_operation::divide) return V::div(a, b);
   if constexpr (Operation == half_operation::sqrt) return V::sqrt(a);
   // The product of two halves is exact in binary32.
-  if constexpr (Operation == half_operation::fma) return V::add_to_odd(V::mul(a, b), c);
+  if constexpr (Operation == half_operation::fma) return V::fma_to_odd(a, b, c);
 }
 
 template <class V, half_operation Operation>

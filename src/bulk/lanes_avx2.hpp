@@ -53,16 +53,13 @@ struct lanes32 : words {
   static f fma(f a, f b, f c) { return _mm256_fmadd_ps(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm256_fnmadd_ps(a, b, c); }
   static f fms(f a, f b, f c) { return _mm256_fmsub_ps(a, b, c); }
-  /// a + b to odd: where inexact, the odd one of the two neighbours. The error of the sum to nearest says whether
-  /// and on which side.
-  static f add_to_odd(f a, f b) {
-    const f sum = add(a, b);
-    const f back = sub(sum, a);
-    const f error = add(sub(a, sub(sum, back)), sub(b, back));
-    const i inexact = bits(_mm256_cmp_ps(error, _mm256_setzero_ps(), _CMP_NEQ_OQ));
-    const i step = and_(inexact, _mm256_andnot_si256(bits(sum), all_bits(1)));
-    const i opposite = spread_sign(xor_(bits(error), bits(sum)));
-    return value(iadd(bits(sum), isub(xor_(step, opposite), opposite)));
+  /// a b + c to odd for an exact a b; the processor must round toward zero. The sum, cut, less a b is c again only where
+  /// nothing was cut: without the larger of the two it leaves the other and the error exactly [Dekker71]; without a smaller
+  /// a b, less than c in size.
+  static f fma_to_odd(f a, f b, f c) {
+    const f cut = fma(a, b, c);
+    const i inexact = bits(_mm256_cmp_ps(fnma(a, b, cut), c, _CMP_NEQ_OQ));
+    return value(or_(bits(cut), and_(inexact, all_bits(1))));
   }
   static f max(f a, f b) { return _mm256_max_ps(a, b); }
   static f min(f a, f b) { return _mm256_min_ps(a, b); }

@@ -52,10 +52,11 @@ struct lanes32 : words {
   static f fma(f a, f b, f c) { return _mm512_fmadd_ps(a, b, c); }
   static f fnma(f a, f b, f c) { return _mm512_fnmadd_ps(a, b, c); }
   static f fms(f a, f b, f c) { return _mm512_fmsub_ps(a, b, c); }
-  /// a + b to odd: where inexact, the odd one of the two neighbours.
-  static f add_to_odd(f a, f b) {
-    const f below = _mm512_add_round_ps(a, b, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
-    const f above = _mm512_add_round_ps(a, b, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+  /// a b + c to odd for an exact a b: where inexact, the odd one of the two neighbours.
+  static f fma_to_odd(f a, f b, f c) {
+    const f product = mul(a, b);
+    const f below = _mm512_add_round_ps(product, c, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+    const f above = _mm512_add_round_ps(product, c, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
     return _mm512_mask_blend_ps(_mm512_test_epi32_mask(bits(below), all_bits(1)), above, below);
   }
   /// x = significand * 2^exponent, the significand from 1 to 2; of subnormal numbers too.

@@ -101,14 +101,13 @@ struct carrier_traits<pack<T, N>> {
     static_assert(std::is_same_v<T, float> ? carried_by_float(E) : carried_by_double(E));
     const vector product = a.lanes_of() * b.lanes_of(), term = c.lanes_of();
     const vector sum = product + term;
-    const vector back = sum - product;
-    const vector error = (product - (sum - back)) + (term - back);
-    const bits pattern = std::bit_cast<bits>(sum);
-    // Inexact and even: one step up in magnitude where the error has the sum's sign, else one down.
-    const bits opposite = (std::bit_cast<bits>(error) ^ pattern) >> (8 * static_cast<int>(sizeof(T)) - 1);
-    const bits inexact = (error < 0) | (error > 0);
-    const bits step = inexact & ~pattern & 1;
-    return round<E, R>(carrier(std::bit_cast<vector>(pattern + ((step ^ opposite) - opposite))));
+    // Without the larger of the two, the sum leaves the other and the exact error [Dekker71]; without the smaller one it is
+    // rounded to the larger one or past it, to the error's side. So the two errors never differ in sign.
+    const vector error = (term - (sum - product)) + (product - (sum - term));
+    // To odd: toward zero, where the error has the other sign than the sum, then the last bit set.
+    const bits less = error < 0, more = error > 0, pattern = std::bit_cast<bits>(sum);
+    const bits toward_zero = pattern + (pattern < 0 ? more : less);
+    return round<E, R>(carrier(std::bit_cast<vector>(toward_zero | ((less | more) & 1))));
   }
 
  private:
