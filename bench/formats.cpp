@@ -141,7 +141,7 @@ int main(int argc, char** argv) {
   for (const bool whole : {false, true}) {
     const std::string group = whole ? "directed, whole range, in cache" : "directed, [0,1), in cache";
     limits(group, unit_inputs(in_cache), nullptr);
-    for (const char* name : {"binary16", "bfloat16", "fp8_e4m3", "e9m6", "unorm16"}) {
+    for (const char* name : {"binary16", "bfloat16", "fp8_e4m3", "e9m6", "unorm16", "snorm16"}) {
       for (const auto& d : directions) {
         const encoding e = *parse_encoding(name);
         const auto in = whole ? range_inputs(e, in_cache) : unit_inputs(in_cache);

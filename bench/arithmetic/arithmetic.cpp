@@ -208,10 +208,10 @@ void one_sample(bench::table& table) {
              "binary32, pack<float>", 0});
   const auto four = [=] { over(halves, pack<float, 4 * floats::lanes>()); };
   table.add({group, "real<binary16>, four registers", samples, four, [=] { four(); return agree(halves); },
-             "binary32, pack<float>", 0});
+             "binary32, pack<float>", 3});
   const auto emulated = [=] { over(halves, wide()); };
   table.add({group, "real<binary16>, two registers", samples, emulated, [=] { emulated(); return agree(halves); },
-             "binary32, pack<float>", 3});
+             "binary32, pack<float>", 0});
 }
 
 }  // namespace
