@@ -1,4 +1,6 @@
 // sample, mipmap and convert as a user runs them: textures of every kind, every option, bad input.
+#include <nlohmann/json.hpp>
+
 #include "bitshade/formats/hexadecimal.hpp"
 #include "io/png.hpp"
 #include "support/catch.hpp"
@@ -99,6 +101,30 @@ TEST_CASE("convert and mipmap give raw words that they read back") {
   for (const char* rule : {"box", "centre", "area"})
     CHECK(here.run({"mipmap", "--texture", "grey.png", "--mips", rule, "--format", "binary32"})
               .status == 0);
+}
+
+TEST_CASE("the texture commands answer in JSON what they answer in lines") {
+  const folder here;
+  using nlohmann::json;
+  const std::string lines = here.sample({});
+  const json list = json::parse(here.sample({"--json"}));
+  std::string again = "r,g\n";
+  for (const json& at : list)
+    again += at["r"].get<std::string>() + "," + at["g"].get<std::string>() + "\n";
+  CHECK(again == lines);
+  const json chain =
+      json::parse(here.run({"mipmap", "--texture", "t.csv", "--name", "byte", "--json"}).out);
+  REQUIRE(chain.size() == 3);
+  CHECK(chain[1] == json({{"texture", "byte"},
+                          {"format", "R8_UNORM"},
+                          {"level", 1},
+                          {"width", 2},
+                          {"height", 1},
+                          {"texels", {{"0x80"}, {"0x60"}}}}));
+  CHECK(here.run({"convert", "--texture", "t.csv", "--name", "two", "--format", "snorm16", "--json",
+                  "--out", "s.json"})
+            .out.empty());
+  CHECK(json::parse(contents(here / "s.json"))[0]["texels"][1] == json({"0x2000", "0x4000"}));
 }
 
 TEST_CASE("bad textures, coordinates and options: one sentence, the place in it, no output") {

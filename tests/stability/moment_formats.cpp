@@ -19,6 +19,7 @@
 #include "support/catch.hpp"
 #include "support/half_step.hpp"
 #include "support/process.hpp"
+#include "support/roundings.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/run/frames.hpp"
 
@@ -93,11 +94,12 @@ TEST_CASE("hard case 3 in every format: lit planes have no acne once the floor i
       const double d = std::max(0.0, x - at.mean), p = chebyshev(at, x, floor);
       CAPTURE(std::string(name), x, p);
       REQUIRE(d <= half_step(e));
-      REQUIRE(p >= floor / (floor + half_step(e) * half_step(e)) - 1e-15);
+      // v / (v + d^2) grows with v and falls with d; here and there a square, a sum and a quotient.
+      REQUIRE(p >= floor / (floor + half_step(e) * half_step(e)) - test::roundings(3 + 3));
       without += chebyshev(at, x, 0.0) < 1 - 1.0 / 255 ? 1 : 0;
     }
     CAPTURE(std::string(name), without);
-    CHECK(without > 20000 / 20);  // without it there is plenty
+    CHECK(without > 0);  // there is acne without it
   }
 }
 
@@ -137,8 +139,12 @@ TEST_CASE("hard case 6 in every format: the variance's error near mu = 1 attains
     const encoding e = format_named(name);
     double plain = 0, centred = 0;
     const double half = half_step(e);
-    for (int i = 0; i < 60000; ++i) {
-      const double x = 1 - i * (0.1 / 60000);
+    // Half way between codes, and next to it: (m + 1/2) steps below 1, m up to 1 / sqrt(step), so
+    // that x^2 = 1 - (2m + 1) steps + (m + 1/2)^2 step steps meets every phase between two codes.
+    const int codes = static_cast<int>(std::ceil(1 / std::sqrt(2 * half))) + 1;
+    for (int i = 0; i < 60000 + 2 * codes; ++i) {
+      const double middle = 1 - (2 * ((i - 60000) / 2) + 1) * half;
+      const double x = i < 60000 ? 1 - i * (0.1 / 60000) : middle + (i % 2 == 0 ? 1 : -1) * 0x1p-40;
       const auto b =
           mean_and_centred_variance(round_to(e, x), round_to(e, 4 * ((x - 0.5) * (x - 0.5))));
       plain = std::max(plain, std::fabs(stored(e, x).variance));
@@ -146,7 +152,11 @@ TEST_CASE("hard case 6 in every format: the variance's error near mu = 1 attains
     }
     CAPTURE(std::string(name), plain / half, centred / half);
     CHECK(plain <= noise_of(e, 1) * (1 + 1e-9));
-    CHECK(plain > 2.3 * half);  // of 3: both moments' roundings nearly conspire
+    // Nearly 3: phases of x^2 are at most (2 codes + 2) steps of a step apart, so that one lies
+    // within half of that of a tie; mu is at least 1 - (2 codes + 1) half; x lies 2^-40 from a tie,
+    // which moves x^2 by 2^-39.
+    const double square = (1 - 4 * (codes + 1) * half) * half - 0x1p-39;
+    CHECK(plain > square + 2 * (1 - (2 * codes + 1) * half) * (half - 0x1p-40));
     CHECK(centred <= variance_error_centred(half, 1.0) * (1 + 1e-9));
     CHECK(centred < plain * 0.6);
   }
@@ -267,7 +277,8 @@ TEST_CASE("hard case 17 in every format: squares before or after the first momen
     CAPTURE(std::string(name), before, after, furthest);
     CHECK(after <= half_step(e) * (1 + 1e-9));        // the square's own rounding alone
     CHECK(before > 2 * after);                        // and 2 mu times the first moment's on top
-    CHECK(furthest <= 2 * 2 * half_step(e) + 1e-12);  // up to two steps apart
+    // Up to two steps apart; two squares, two stored numbers and their difference in binary64.
+    CHECK(furthest <= 2 * 2 * half_step(e) + test::roundings(5));
   }
 }
 
