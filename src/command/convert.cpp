@@ -1,28 +1,23 @@
 // `bitshade convert`: a texture's texels in another format, as a device stores them.
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 #include <string>
 
 #include "command/commands.hpp"
 #include "command/texture_options.hpp"
-#include "io/atomic_file.hpp"
 
 namespace bitshade::command {
 namespace {
 
 struct options {
   std::string texture, name, format, preset = "exact", out;
+  bool json = false;
 };
 
 void convert(const options& given) {
   const named_texture texture = read_texture(given.texture, given.name);
   const named_texture result = in_format(choose_preset(given.preset, {}), texture, given.format);
-  const std::string text = texture_file_text(result);
-  if (given.out.empty())
-    std::cout << text;
-  else
-    write_file(given.out, text);
+  write_texture(result, given.json, given.out);
 }
 
 }  // namespace
@@ -48,6 +43,8 @@ void add_convert(CLI::App& app) {
       ->add_option("--preset", given->preset,
                    "Whose loads and stores: as for 'bitshade sample'; exact rounds to nearest even")
       ->capture_default_str();
+  command->add_flag("--json", given->json,
+                    "A JSON array of levels, texels as arrays of raw words");
   command->add_option("--out", given->out, "File to write instead of standard output")
       ->option_text("FILE");
   command->footer("Example:\n  bitshade convert --texture depth.png --format half --preset d3d11");

@@ -1,13 +1,11 @@
 // `bitshade mipmap`: the chain that a device makes of a texture.
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 #include <string>
 
 #include "bitshade/texture/device_sampler.hpp"
 #include "command/commands.hpp"
 #include "command/texture_options.hpp"
-#include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/nearest.hpp"
 
@@ -16,6 +14,7 @@ namespace {
 
 struct options {
   std::string texture, name, format, preset = "exact", mips, out;
+  bool json = false;
 };
 
 void make_chain(const options& given) {
@@ -36,11 +35,7 @@ void make_chain(const options& given) {
       throw usage_error("--mips: no '" + given.mips + "'; " + suggest(given.mips, known));
   }
   complete_chain(model, texture);
-  const std::string text = texture_file_text(texture);
-  if (given.out.empty())
-    std::cout << text;
-  else
-    write_file(given.out, text);
+  write_texture(texture, given.json, given.out);
 }
 
 }  // namespace
@@ -66,6 +61,8 @@ void add_mipmap(CLI::App& app) {
   command->add_option(
       "--mips", given->mips,
       "box, centre (bilinear at the texel's centre) or area; default: the preset's");
+  command->add_flag("--json", given->json,
+                    "A JSON array of levels, texels as arrays of raw words");
   command->add_option("--out", given->out, "File to write instead of standard output")
       ->option_text("FILE");
   command->footer(

@@ -22,6 +22,7 @@ struct options {
   std::string texture, name, coordinates, format, preset = "exact", wrap = "clamp",
                                                   filter = "bilinear", border;
   int max_anisotropy = 1;
+  bool json = false;
 };
 
 template <class Value, std::size_t N>
@@ -70,6 +71,31 @@ sampler_state state_of(const options& given) {
   return state;
 }
 
+/// A line a lookup: r,g,.. or {"r": .., "g": ..}.
+void answer(const texture_sampler& sampler, int channels, const coordinates& where, bool json) {
+  static constexpr char letters[] = "rgba";
+  if (json) {
+    std::cout << '[';
+  } else if (where.named) {
+    for (int c = 0; c < channels; ++c) std::cout << (c == 0 ? "" : ",") << letters[c];
+    std::cout << '\n';
+  }
+  bool first = true;
+  for (const auto& at : where.lookups) {
+    std::string line = !json ? "" : first ? "\n {" : ",\n {";
+    first = false;
+    for (int c = 0; c < channels; ++c) {
+      const float value =
+          where.gradient ? sampler.gradient(at.u, at.v, at.g, c) : sampler.lod(at.u, at.v, at.lod, c);
+      const std::string number = hexadecimal(static_cast<double>(value));
+      if (c > 0) line += json ? ", " : ",";
+      line += json ? std::string("\"") + letters[c] + "\": \"" + number + '"' : number;
+    }
+    std::cout << line << (json ? "}" : "\n");
+  }
+  if (json) std::cout << "\n]\n";
+}
+
 void sample(const options& given) {
   const sampler_state state = state_of(given);
   named_texture texture = read_texture(given.texture, given.name);
@@ -84,23 +110,7 @@ void sample(const options& given) {
         "--max-anisotropy needs coordinates with derivatives: u,v,dudx,dvdx,dudy,dvdy");
   if (state.mips != mip_selection::none) complete_chain(model, texture);
 
-  const auto sampler = make_texture_sampler(model, texture, state);
-  if (where.named) {
-    static constexpr char letters[] = "rgba";
-    for (int c = 0; c < texture.format.channels; ++c)
-      std::cout << (c == 0 ? "" : ",") << letters[c];
-    std::cout << '\n';
-  }
-  for (const auto& at : where.lookups) {
-    std::string line;
-    for (int c = 0; c < texture.format.channels; ++c) {
-      const float value = where.gradient ? sampler->gradient(at.u, at.v, at.g, c)
-                                         : sampler->lod(at.u, at.v, at.lod, c);
-      if (c > 0) line += ',';
-      line += hexadecimal(static_cast<double>(value));
-    }
-    std::cout << line << '\n';
-  }
+  answer(*make_texture_sampler(model, texture, state), texture.format.channels, where, given.json);
 }
 
 }  // namespace
@@ -149,6 +159,7 @@ void add_sample(CLI::App& app) {
       ->add_option("--max-anisotropy", given->max_anisotropy,
                    "Most probes along a footprint, 1 to 16")
       ->capture_default_str();
+  command->add_flag("--json", given->json, "A JSON array, an object a lookup, instead of lines");
   command->footer(
       "Example, a device's own results against a preset:\n"
       "  bitshade sample --texture textures.csv --name rg16_16 --coords mine.csv \\\n"

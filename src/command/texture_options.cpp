@@ -1,5 +1,7 @@
 #include "command/texture_options.hpp"
 
+#include <iostream>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "bitshade/interop/rational.hpp"
@@ -7,6 +9,7 @@
 #include "bitshade/texture/exact_mips.hpp"
 #include "bitshade/texture/presets.hpp"
 #include "command/format_options.hpp"
+#include "io/atomic_file.hpp"
 #include "io/error.hpp"
 #include "io/nearest.hpp"
 
@@ -64,8 +67,36 @@ void complete_chain(const filter_model& model, named_texture& texture) {
                                          : device_mip_chain(model, texture.format, std::move(base));
 }
 
-std::string texture_file_text(const named_texture& texture) {
-  return "texture,format,level,width,height,texels_hex_row_major\n" + print_texture(texture);
+namespace {
+
+std::string levels_in_json(const named_texture& texture) {
+  std::string out = "[";
+  for (std::size_t level = 0; level < texture.levels.size(); ++level) {
+    const coded_image& in = texture.levels[level];
+    const auto channels = static_cast<std::size_t>(in.channels);
+    auto texels = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < in.texels.size(); ++i) {
+      if (i % channels == 0) texels.push_back(nlohmann::ordered_json::array());
+      texels.back().push_back("0x" + raw_word(texture.format, i % channels, in.texels[i]));
+    }
+    const nlohmann::ordered_json line{{"texture", texture.name}, {"format", name_of(texture.format)},
+                                      {"level", level},          {"width", in.width},
+                                      {"height", in.height},     {"texels", std::move(texels)}};
+    out += (level == 0 ? "\n " : ",\n ") + line.dump();
+  }
+  return out + "\n]\n";
+}
+
+}  // namespace
+
+void write_texture(const named_texture& texture, bool json, const std::string& file) {
+  const std::string text =
+      json ? levels_in_json(texture)
+           : "texture,format,level,width,height,texels_hex_row_major\n" + print_texture(texture);
+  if (file.empty())
+    std::cout << text;
+  else
+    write_file(file, text);
 }
 
 }  // namespace bitshade::command

@@ -22,7 +22,8 @@ named_texture in_format(const filter_model& model, const named_texture& texture,
 /// Makes the chain of a texture that has but one level, as the preset makes it.
 void complete_chain(const filter_model& model, named_texture& texture);
 
-/// The header of the texture layout, then the texture.
-std::string texture_file_text(const named_texture& texture);
+/// The texture in its text layout, or as a JSON array of its levels, to a file or, where that has no
+/// name, to standard output.
+void write_texture(const named_texture& texture, bool json, const std::string& file);
 
 }  // namespace bitshade::command

@@ -190,8 +190,15 @@ std::vector<named_texture> parse_textures(std::string_view text, const std::stri
   return result;
 }
 
-std::string print_texture(const named_texture& texture) {
+std::string raw_word(const texel_format& format, std::size_t channel, std::uint64_t word) {
   static constexpr char digits[] = "0123456789abcdef";
+  std::string out;
+  for (int shift = (format.of[channel].width + 3) / 4 * 4 - 4; shift >= 0; shift -= 4)
+    out += digits[(word >> shift) & 15];
+  return out;
+}
+
+std::string print_texture(const named_texture& texture) {
   std::string out;
   for (std::size_t level = 0; level < texture.levels.size(); ++level) {
     const coded_image& in = texture.levels[level];
@@ -200,9 +207,7 @@ std::string print_texture(const named_texture& texture) {
     const auto channels = static_cast<std::size_t>(in.channels);
     for (std::size_t i = 0; i < in.texels.size(); ++i) {
       if (i != 0) out += i % channels == 0 ? ' ' : '/';
-      for (int shift = (texture.format.of[i % channels].width + 3) / 4 * 4 - 4; shift >= 0;
-           shift -= 4)
-        out += digits[(in.texels[i] >> shift) & 15];
+      out += raw_word(texture.format, i % channels, in.texels[i]);
     }
     out += '\n';
   }

@@ -22,6 +22,9 @@ struct named_texture {
 texel_format parse_texel_format(std::string_view name, const std::string& place);
 std::string name_of(const texel_format& format);
 
+/// A channel's raw word in hexadecimal, as many digits as its bits need.
+std::string raw_word(const texel_format& format, std::size_t channel, std::uint64_t word);
+
 /// Textures in the layout
 ///
 ///   texture,format,level,width,height,texels_hex_row_major
