@@ -56,6 +56,7 @@ class sat_band {
   static constexpr int width = static_cast<int>(V::width);
   static constexpr auto lanes = V::width;
   static constexpr std::size_t in_line = 64 / sizeof(float);
+  static constexpr std::size_t piece = 256;  ///< values of a row, a kilobyte
   /// Where lines take several vectors, rows of codes leave room in the caches: half of them is read.
   static constexpr bool streams = in_line == lanes || sizeof(code) == sizeof(float);
   static constexpr std::size_t ahead = 256 / sizeof(code);  ///< fetched early: sixteen rows are more than the processor foresees
@@ -80,7 +81,9 @@ class sat_band {
       if (streams && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
         // Whole lines, past the caches: so many rows at once would throw each other out of them.
         for (; i < head; i += lanes) partial(sum, above + i, i, head - i < lanes ? head - i : lanes);
-        for (i = head; i + in_line <= job_.n; i += in_line) lines(sum, above, i);
+        const std::size_t end = head + (job_.n - head) / in_line * in_line;
+        for (i = head; i < end; i += piece) lines(sum, above, i, end - i < piece ? end : i + piece);
+        i = end;
         V::fence();
       } else {
         for (; i + lanes <= job_.n; i += lanes) {
@@ -100,25 +103,34 @@ class sat_band {
     }
   }
 
-  /// A block that fills whole lines, however many vectors that takes.
-  [[gnu::always_inline]] void lines(vector (&sum)[Channels], float* above, std::size_t i) const {
-    alignas(64) float line[width][in_line];
-    for (std::size_t k = 0; k < in_line; k += lanes) {
+  /// Whole lines [begin, end), at most a piece of them. Where a vector is no line they are gathered
+  /// first: among reads of `in`, writes to places that end in the same 12 bits would hold each other
+  /// up, as rows of a power of two do. So the buffer's rows keep half a kilobyte from those of `in`.
+  [[gnu::always_inline]] void lines(vector (&sum)[Channels], float* above, std::size_t begin,
+                                    std::size_t end) const {
+    constexpr bool gathers = in_line != lanes;
+    alignas(64) float buffer[gathers ? (width + 1) * piece : 1];
+    const std::size_t shift =
+        (reinterpret_cast<std::uintptr_t>(in_ + begin) - reinterpret_cast<std::uintptr_t>(buffer) +
+         512) % 1024 / 64 * in_line;
+    float* const first = buffer + (gathers ? shift : 0);
+    for (std::size_t i = begin; i < end; i += lanes) {
       const auto load = [&](int r) {
-        if (k == 0) prefetch(r, i);
-        return sums_.load(in_ + row(r) + i + k);
+        if ((i - begin) % in_line == 0) prefetch(r, i);
+        return sums_.load(in_ + row(r) + i);
       };
-      block(sum, above + i + k, width, load, [&](int r, f x) {
-        if constexpr (in_line == lanes)
-          V::stream(out_ + row(r) + i, x);
+      block(sum, above + i, width, load, [&](int r, f x) {
+        if constexpr (gathers)
+          V::store(first + static_cast<std::size_t>(r) * piece + (i - begin), x);
         else
-          V::store(line[r] + k, x);
+          V::stream(out_ + row(r) + i, x);
       });
     }
-    if constexpr (in_line == lanes) return;
+    if constexpr (!gathers) return;
     for (int r = 0; r < width; ++r)
-      for (std::size_t k = 0; k < in_line; k += lanes)
-        V::stream(out_ + row(r) + i + k, V::load(line[r] + k));
+      for (std::size_t i = begin; i < end; i += lanes)
+        V::stream(out_ + row(r) + i,
+                  V::load(first + static_cast<std::size_t>(r) * piece + (i - begin)));
   }
 
   /// What comes `ahead` values later: in the row, or where the band below begins. An address beyond
