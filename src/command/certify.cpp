@@ -84,7 +84,8 @@ void certify_scene(const options& given) {
   };
   std::cout << label_of(c) << ": widths of the intervals that hold the exact visibility\n"
             << text_table({{"certificate from", "median", "p99.9", "largest"},
-                           line("the format alone, " + std::to_string(all.roundings) + " roundings",
+                           line("the format alone, " + std::to_string(all.roundings) +
+                                    (all.roundings == 1 ? " rounding" : " roundings"),
                                 global),
                            line("the stored moments", stored),
                            line("the roundings that happened", running)},
