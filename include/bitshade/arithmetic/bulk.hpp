@@ -26,7 +26,7 @@ class workers;
 /// How a span is worked on. The result does not depend on `threads`, `crew` or `set`.
 struct execution {
   std::uint64_t seed = 0;           ///< key of stochastic rounding
-  std::uint64_t first_counter = 0;  ///< element i draws random_bits(seed, first_counter + i)
+  std::uint64_t first_counter = 0;  ///< element i draws rounding_bits(seed, first_counter + i)
   unsigned threads = 1;             ///< more than one only when asked
   instruction_set set = instruction_set::best;
   workers* crew = nullptr;  ///< threads that wait between calls (workers.hpp), instead of new ones
