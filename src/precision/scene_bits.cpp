@@ -161,11 +161,10 @@ std::vector<scene_search> searches_of(const configuration& asked) {
     for (const stage s : stages_of(how))
       if (stores(s)) all.push_back({s, unit});
   };
-  add_stores(exponential(how) ? bit_unit::significand : bit_unit::unorm);
-  if (sums) {
-    all.push_back({{}, bit_unit::unorm});
-    add_stores(bit_unit::significand);
-  }
+  const bit_unit unit = exponential(how) ? bit_unit::significand : bit_unit::unorm;
+  add_stores(unit);
+  all.push_back({{}, unit});
+  if (sums) add_stores(bit_unit::significand);
   for (const stage s : stages_of(how)) {
     if (s == stage::sums) all.push_back({s, bit_unit::significand});
     if (!stores_variance(how.method)) continue;

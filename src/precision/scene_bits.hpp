@@ -37,8 +37,8 @@ struct scene_bits {
 /// The searches that a configuration calls for, its format not read: stores (texels, resolve, blur,
 /// mips) in unorms, of ESM and EVSM in significands, of savsm in both; the running sums of savsm in
 /// significands, since sums of unorms lose nothing; weights in fraction bits; shading of variances
-/// in significands; and all stages of savsm in unorms and in floats. The arithmetic of filters has
-/// no format of its own.
+/// in significands; and all stages together in the stores' formats, which is what a map takes. The
+/// arithmetic of filters has no format of its own.
 std::vector<scene_search> searches_of(const configuration& how);
 
 /// Searches the fewest bits of a configuration, whose format is not read; one exact run serves all

@@ -50,8 +50,8 @@ TEST_CASE("precision on a scene finds no more bits than the bound asks for") {
   CAPTURE(done.err);
   REQUIRE(done.status == 0);
   const json found = json::parse(done.out);
-  // Two of four stages of vsm and lvsm each, and of EVSM; store, sums, shading and all of savsm.
-  CHECK(found["on_scene"].size() == 18);
+  // Four stages of vsm and lvsm each, two of both EVSM, and all of each; six rows of savsm.
+  CHECK(found["on_scene"].size() == 22);
   for (const auto& s : found["on_scene"]) {
     CAPTURE(s.dump());
     CHECK(s["found_bits"].get<int>() > 0);
@@ -93,11 +93,11 @@ TEST_CASE("precision searches the stores of exponential, convolution and four-mo
   CAPTURE(done.err);
   REQUIRE(done.status == 0);
   const json found = json::parse(done.out);
-  REQUIRE(found["on_scene"].size() == 6);  // store and blur of each, whatever the two floors
+  REQUIRE(found["on_scene"].size() == 9);  // store, blur and all of each, whatever the two floors
   for (const auto& s : found["on_scene"]) {
     CAPTURE(s.dump());
     CHECK(s["found_bits"].get<int>() > 4);
-    CHECK(s["predicted_bits"].is_null() == (s["technique"] == "msm"));
+    CHECK(s["predicted_bits"].is_null() == (s["technique"] == "msm" || s["stage"] == "all"));
     if (!s["predicted_bits"].is_null())
       CHECK(s["found_bits"].get<int>() <= s["predicted_bits"].get<int>());
   }
