@@ -61,6 +61,9 @@ struct lanes : bulk_kernels::avx2::lanes32 {
   }
 
   static constexpr bool samples = true;
+  /// Vectors of samples located before the first is fetched. What a lookup's results wait for, from
+  /// its coordinates on, is longer than the processor looks ahead.
+  static constexpr std::size_t located_ahead = 32;
   using wide = bulk_kernels::avx2::lanes64;
   static f floor(f x) { return _mm256_floor_ps(x); }
   static i floor_to_int(f x) { return to_int(floor(x)); }
@@ -102,10 +105,27 @@ struct lanes : bulk_kernels::avx2::lanes32 {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p + at[0])),
                                 _mm_loadu_ps(p + at[2]), 1);
   }
-  static __m128i quads(const std::uint16_t* p, const int* at) {
-    const __m128i first = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p + at[0]));
-    const auto* second = reinterpret_cast<const double*>(p + at[2]);
+  static __m128i two_quads(const std::uint16_t* a, const std::uint16_t* b) {
+    const __m128i first = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(a));
+    const auto* second = reinterpret_cast<const double*>(b);
     return _mm_castpd_si128(_mm_loadh_pd(_mm_castsi128_pd(first), second));
+  }
+  static __m128i quads(const std::uint16_t* p, const int* at) {
+    return two_quads(p + at[0], p + at[2]);
+  }
+  /// Four codes from each of the places at[0] .. at[3]: a sample's two texels side by side.
+  static i couples_of_two(const std::uint16_t* p, const int* at) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(two_quads(p + at[0], p + at[1])),
+                                   two_quads(p + at[2], p + at[3]), 1);
+  }
+  /// Of each four codes the first (0) or last (1) two, as integers of 32 bits.
+  template <int Which>
+  static i half_of_each(i codes) {
+    constexpr int at = Which == 0 ? 0 : 0x0404;  // a byte's top bit stands for zero
+    const __m128i places =
+        _mm_set_epi32(static_cast<int>(0x80800b0a) + at, static_cast<int>(0x80800908) + at,
+                      static_cast<int>(0x80800302) + at, static_cast<int>(0x80800100) + at);
+    return _mm256_shuffle_epi8(codes, _mm256_broadcastsi128_si256(places));
   }
   static i widen(__m128i words) { return _mm256_cvtepu16_epi32(words); }
   /// Two values from each place: the lower (0) or upper (1) half of the places.

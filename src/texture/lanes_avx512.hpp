@@ -84,6 +84,7 @@ struct lanes : bulk_kernels::avx512::lanes32 {
   }
 
   static constexpr bool samples = true;
+  static constexpr std::size_t located_ahead = 1;
   using wide = bulk_kernels::avx512::lanes64;
   static f floor(f x) { return _mm512_floor_ps(x); }
   static i floor_to_int(f x) {

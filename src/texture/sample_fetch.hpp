@@ -29,7 +29,13 @@ template <class V, class Texels, int Channels, int Part>
   using f = typename V::f;
   const code* in = static_cast<const code*>(job.in);
   const code* below = in + static_cast<std::size_t>(job.width) * Channels;
-  if constexpr (Channels == 2) {
+  if constexpr (Channels == 2 && Texels::integers && requires { V::couples_of_two(in, place); }) {
+    const int* at = place + Part * static_cast<int>(V::width) / 2;
+    const auto u = V::couples_of_two(in, at), l = V::couples_of_two(below, at);
+    const auto first = [&](auto x) { return texels.wide(V::template half_of_each<0>(x)); };
+    const auto last = [&](auto x) { return texels.wide(V::template half_of_each<1>(x)); };
+    return {first(u), last(u), first(l), last(l)};
+  } else if constexpr (Channels == 2) {
     const int* at = place + Part * static_cast<int>(V::width) / 2;
     const f u0 = texels.narrow(V::quads(in, at)), u1 = texels.narrow(V::quads(in, at + 1));
     const f l0 = texels.narrow(V::quads(below, at)), l1 = texels.narrow(V::quads(below, at + 1));

@@ -70,8 +70,17 @@ class sample_rows {
     const Texels texels;
     const sample_job job = job_;
     std::size_t i = 0;
-    for (; i + V::width <= job.n; i += V::width) {
-      vector(size, texels, job, job.u + i, job.v + i, job.out + i * Channels);
+    while (i + V::width <= job.n) {
+      located<V> at[V::located_ahead];
+      const std::size_t left = (job.n - i) / V::width;
+      const std::size_t count = left < V::located_ahead ? left : V::located_ahead;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t from = i + k * V::width;
+        locate<V, Channels, Grid>(size, job.u + from, job.v + from, at[k]);
+      }
+      for (std::size_t k = 0; k < count; ++k, i += V::width) {
+        vector(texels, job, at[k], job.u + i, job.v + i, job.out + i * Channels);
+      }
     }
     if (i == job.n) return;
     // The last samples, the others of the vector in the middle of the image.
@@ -80,7 +89,9 @@ class sample_rows {
       u[k] = i + k < job.n ? job.u[i + k] : 0.5f;
       v[k] = i + k < job.n ? job.v[i + k] : 0.5f;
     }
-    vector(size, texels, job, u, v, out);
+    located<V> at;
+    locate<V, Channels, Grid>(size, u, v, at);
+    vector(texels, job, at, u, v, out);
     for (std::size_t k = i * Channels; k < job.n * Channels; ++k) {
       job.out[k] = out[k - i * Channels];
     }
@@ -89,11 +100,9 @@ class sample_rows {
  private:
   using f = typename V::f;
 
-  [[gnu::always_inline]] void vector(const level_size<V>& size, const Texels& texels,
-                                     const sample_job& job, const float* u, const float* v,
+  [[gnu::always_inline]] void vector(const Texels& texels, const sample_job& job,
+                                     const located<V>& at, const float* u, const float* v,
                                      float* out) const {
-    located<V> at;
-    locate<V, Channels, Grid>(size, u, v, at);
     if (!at.inner) return edges(u, v, out);
     const auto part = [&]<int Part>() __attribute__((always_inline)) {
       put<Part>(fetch<V, Texels, Channels, Part>(texels, job, at.place), at.fx, at.fy, out);

@@ -12,6 +12,7 @@ template <class V>
 struct native_texels {
   using f = typename V::f;
   using code = float;
+  static constexpr bool integers = false;  ///< codes that `wide` takes and that shuffles widen
   [[gnu::always_inline]] f load(const code* p) const { return V::load(p); }
   [[gnu::always_inline]] f narrow(f x) const { return x; }
   [[gnu::always_inline]] void store(code* p, f x) const { V::store(p, x); }
@@ -24,6 +25,7 @@ template <class V>
 struct half_texels {
   using f = typename V::f;
   using code = std::uint16_t;
+  static constexpr bool integers = false;
   [[gnu::always_inline]] f load(const code* p) const { return V::from_half(V::load_half(p)); }
   [[gnu::always_inline]] f narrow(typename V::half_codes c) const { return V::from_half(c); }
   [[gnu::always_inline]] f wide(typename V::i c) const { return V::from_half(V::words(c)); }
@@ -45,6 +47,7 @@ template <class V, bool Limits = true>
 struct unorm16_texels {
   using f = typename V::f;
   using code = std::uint16_t;
+  static constexpr bool integers = true;
   static constexpr float high = 1 / 65535.0f, low = static_cast<float>(1 / 65535.0 - double{high});
   f scale = V::all(65535.0f), magic = V::all(0x1p23f);
 
@@ -74,6 +77,7 @@ template <class V>
 struct code_texels {
   using f = typename V::f;
   using code = std::uint16_t;
+  static constexpr bool integers = true;
   [[gnu::always_inline]] f load(const code* p) const { return wide(V::load_codes(p)); }
   [[gnu::always_inline]] f narrow(typename V::half_codes c) const { return wide(V::widen(c)); }
   [[gnu::always_inline]] f wide(typename V::i c) const { return V::to_float(c); }
