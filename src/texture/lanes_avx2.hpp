@@ -96,6 +96,12 @@ struct lanes : bulk_kernels::avx2::lanes32 {
   static __m256d twice(__m256d x) {
     return _mm256_permute4x64_pd(x, Half == 0 ? 0x50 : 0xfa);
   }
+  /// The same of four numbers in memory, which broadcasts them without a shuffle.
+  template <int Half>
+  static __m256d twice_at(const double* p) {
+    const auto* half = reinterpret_cast<const __m128d*>(p + 2 * Half);
+    return _mm256_permute_pd(_mm256_broadcast_pd(half), 0xc);
+  }
   /// Of each 128 bits the first or second 64, a's then b's.
   static f low_pairs(f a, f b) { return pairs<0>(a, b); }
   static f high_pairs(f a, f b) { return pairs<15>(a, b); }
@@ -121,11 +127,12 @@ struct lanes : bulk_kernels::avx2::lanes32 {
   /// Of each four codes the first (0) or last (1) two, as integers of 32 bits.
   template <int Which>
   static i half_of_each(i codes) {
-    constexpr int at = Which == 0 ? 0 : 0x0404;  // a byte's top bit stands for zero
-    const __m128i places =
-        _mm_set_epi32(static_cast<int>(0x80800b0a) + at, static_cast<int>(0x80800908) + at,
-                      static_cast<int>(0x80800302) + at, static_cast<int>(0x80800100) + at);
-    return _mm256_shuffle_epi8(codes, _mm256_broadcastsi128_si256(places));
+    constexpr char z = -128;  // makes a zero
+    constexpr char k = Which == 0 ? 0 : 4;
+    const i places = _mm256_setr_epi8(
+        k, k + 1, z, z, k + 2, k + 3, z, z, k + 8, k + 9, z, z, k + 10, k + 11, z, z,  //
+        k, k + 1, z, z, k + 2, k + 3, z, z, k + 8, k + 9, z, z, k + 10, k + 11, z, z);
+    return _mm256_shuffle_epi8(codes, places);
   }
   static i widen(__m128i words) { return _mm256_cvtepu16_epi32(words); }
   /// Two values from each place: the lower (0) or upper (1) half of the places.

@@ -83,11 +83,19 @@ class wide_rows {
     const sample_job job = job_;  // which storing results leaves as it is
     const Operation operation = operation_;
     std::size_t i = 0;
-    for (; i + V::width <= job.n; i += V::width) {
-      float* out = job.out + i * Channels;
-      float high[values];
-      vector(job, operation, job.u + i, job.v + i, out, high);
-      take(i * Channels, values, out, high);
+    while (i + V::width <= job.n) {
+      spots at[V::located_ahead];
+      const std::size_t left = (job.n - i) / V::width;
+      const std::size_t count = left < V::located_ahead ? left : V::located_ahead;
+      for (std::size_t k = 0; k < count; ++k) {
+        locate(job, job.u + i + k * V::width, job.v + i + k * V::width, at[k]);
+      }
+      for (std::size_t k = 0; k < count; ++k, i += V::width) {
+        float* out = job.out + i * Channels;
+        float high[values];
+        vector(job, operation, job.u + i, job.v + i, at[k], out, high);
+        take(i * Channels, values, out, high);
+      }
     }
     if (i == job.n) return;
     float u[V::width], v[V::width], low[values], high[values];
@@ -95,7 +103,9 @@ class wide_rows {
       u[k] = i + k < job.n ? job.u[i + k] : 0.5f;
       v[k] = i + k < job.n ? job.v[i + k] : 0.5f;
     }
-    vector(job, operation, u, v, low, high);
+    spots at;
+    locate(job, u, v, at);
+    vector(job, operation, u, v, at, low, high);
     const std::size_t rest = (job.n - i) * Channels;
     for (std::size_t k = 0; k < rest; ++k) job.out[i * Channels + k] = low[k];
     take(i * Channels, rest, low, high);
@@ -105,6 +115,12 @@ class wide_rows {
   struct weights {
     double fx[V::width], fy[V::width];
     double inexact[V::width];  ///< 0, or infinity where a coordinate is not exact
+  };
+  /// A vector of samples, located.
+  struct spots {
+    weights w;
+    int place[V::width];
+    bool inner;  ///< none lies at an edge
   };
 
   /// Places and weights of one half of the samples; false where one lies at an edge.
@@ -144,21 +160,26 @@ class wide_rows {
     return inner;
   }
 
+  [[gnu::always_inline]] static void locate(const sample_job& job, const float* u, const float* v,
+                                            spots& at) {
+    const bool first = locate_half<0>(job, u, v, at.w, at.place),
+               second = locate_half<1>(job, u, v, at.w, at.place);
+    at.inner = first && second;
+  }
+
   [[gnu::always_inline]] void vector(const sample_job& job, const Operation& operation,
-                                     const float* u, const float* v, float* low,
+                                     const float* u, const float* v, spots& at, float* low,
                                      float* high) const {
-    weights w;
-    int place[V::width];
+    weights& w = at.w;
+    const int* place = at.place;
     float t[4 * values];
-    const bool first = locate_half<0>(job, u, v, w, place),
-               second = locate_half<1>(job, u, v, w, place);
     const auto keep = [&](int part, const four<V>& x) __attribute__((always_inline)) {
       V::store(t + part * V::width, x.t00);
       V::store(t + values + part * V::width, x.t10);
       V::store(t + 2 * values + part * V::width, x.t01);
       V::store(t + 3 * values + part * V::width, x.t11);
     };
-    if (first && second) {
+    if (at.inner) {
       keep(0, fetch<V, Texels, Channels, 0>(texels_, job, place));
       if constexpr (Channels == 2) keep(1, fetch<V, Texels, Channels, 1>(texels_, job, place));
     } else {
@@ -167,9 +188,14 @@ class wide_rows {
     const auto part = [&]<int Part>() __attribute__((always_inline)) {
       constexpr int from = Channels == 2 ? Part / 2 : Part;
       const auto spread = [&](const double* p) __attribute__((always_inline)) {
-        const f x = W::load(p + from * W::width);
-        if constexpr (Channels == 2) return V::template twice<Part % 2>(x);
-        return x;
+        p += from * W::width;
+        if constexpr (Channels != 2) {
+          return W::load(p);
+        } else if constexpr (requires { V::template twice_at<0>(p); }) {
+          return V::template twice_at<Part % 2>(p);
+        } else {
+          return V::template twice<Part % 2>(W::load(p));
+        }
       };
       const f inexact = Operation::tests_exactness ? spread(w.inexact) : W::all(0.0);
       operation.put(t + Part * W::width, values, spread(w.fx), spread(w.fy), inexact,

@@ -130,22 +130,25 @@ TEST_CASE("bulk::sample gives sample_level's bits in every preset and storage") 
 }
 
 TEST_CASE("bulk::sample loads every unorm16 code as its nearest number") {
-  image<std::uint16_t> codes(256, 256);
+  const int channels = GENERATE(1, 2);  // the second counts down
+  image<std::uint16_t> codes(256, 256, channels);
   std::vector<float> u, v;
   for (int i = 0; i < 65536; ++i) {
-    codes.texels[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+    const auto at = static_cast<std::size_t>(i * channels);
+    codes.texels[at] = static_cast<std::uint16_t>(i);
+    if (channels == 2) codes.texels[at + 1] = static_cast<std::uint16_t>(65535 - i);
     u.push_back((static_cast<float>(i % 256) + 0.5f) / 256);
     v.push_back((static_cast<float>(i / 256) + 0.5f) / 256);
   }
   for (const auto& model : {*find_preset("exact"), *find_preset("cuda")}) {
     for (const auto set : bulk_cases::sets()) {
-      std::vector<float> got(u.size());
+      std::vector<float> got(codes.texels.size());
       bulk::sample(model, {unorm16::value, {}}, codes, {}, u, v, got, set);
       int wrong = 0;
       for (std::size_t i = 0; i < got.size(); ++i) {
-        wrong += got[i] != static_cast<float>(decode(unorm16::value, i)) ? 1 : 0;
+        wrong += got[i] != static_cast<float>(decode(unorm16::value, codes.texels[i])) ? 1 : 0;
       }
-      CAPTURE(model.name, bulk_cases::name_of(set));
+      CAPTURE(model.name, channels, bulk_cases::name_of(set));
       CHECK(wrong == 0);
     }
   }
