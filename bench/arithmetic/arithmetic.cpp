@@ -211,7 +211,7 @@ void one_sample(bench::table& table) {
              "binary32, pack<float>", 3});
   const auto emulated = [=] { over(halves, wide()); };
   table.add({group, "real<binary16>, two registers", samples, emulated, [=] { emulated(); return agree(halves); },
-             "binary32, pack<float>", 0});
+             "binary32, pack<float>", 3});
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST_CASE("hard case 3 in every format: lit planes have no acne once the floor i
       without += chebyshev(at, x, 0.0) < 1 - 1.0 / 255 ? 1 : 0;
     }
     CAPTURE(std::string(name), without);
-    CHECK(without > 0);  // there is acne without it
+    CHECK(without > 20000 / 20);  // without it there is plenty
   }
 }
 

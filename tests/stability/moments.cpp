@@ -70,7 +70,7 @@ TEST_CASE("hard case 3: a lit plane at every depth between codes has no acne onc
     }
     without += chebyshev(at, x, 0.0) < 1 - 1.0 / 255 ? 1 : 0;
   }
-  CHECK(without > 0);  // there is acne without the floor
+  CHECK(without > 65535 / 10);  // without the floor there is plenty
 }
 
 TEST_CASE("hard case 4: about half of a plane's variances are negative in unorm16, and floored") {
