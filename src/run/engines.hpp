@@ -39,6 +39,8 @@ void run_summed_area_exact(run_context& run);   ///< savsm in integers of proven
 
 /// Exact exponentials are certified up to here: e^(2c) and e^(-2c) stay within 2^+-1000.
 inline constexpr double exact_exponent_cap = 300;
+/// Throws usage_error for a larger one.
+void require_exact_exponent(double exponent);
 
 /// truth_pcf(), but for the configuration's depth bias: x >= t - bias.
 std::vector<double> pcf_exact(const frame& scene, const configuration& how, int threads);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "io/error.hpp"
 #include "run/filtered_exact.hpp"
 
 namespace bitshade {
@@ -56,10 +55,7 @@ evsm_map map_of(const configuration& how) {
 
 void run_evsm_exact(run_context& run) {
   const evsm_map map = map_of(run.how);
-  if (map.constants.positive > exact_exponent_cap || map.constants.negative > exact_exponent_cap) {
-    throw usage_error("exact EVSM takes exponents up to 300, not " +
-                      std::to_string(std::max(map.constants.positive, map.constants.negative)));
-  }
+  require_exact_exponent(std::max(map.constants.positive, map.constants.negative));
   run_filtered_exact(run, map);
 }
 

@@ -52,9 +52,7 @@ void refuse_uncovered(const configuration& how, const stage_choices& choices) {
   const double exponent = how.method == technique::evsm4
                               ? std::max(how.exponent, how.negative_exponent)
                               : how.exponent;
-  if (exponential && exponent > exact_exponent_cap) {
-    throw usage_error("exact stages take exponents up to 300, not " + std::to_string(exponent));
-  }
+  if (exponential) require_exact_exponent(exponent);
   if (relaxed(how) && (how.lloyd != lloyd_choices{} || how.min_width != 0)) {
     throw usage_error(
         "stages are compared with Lloyd's splits at rest, in exact sums: leave out the options "

@@ -52,17 +52,22 @@ void check_held(const frame& scene, const configuration& how) {
   CHECK(wider == 0);
 }
 
+/// A scene of the command, small.
+frame small_scene(const char* name) {
+  scene_options options;
+  options.map_size = 96;
+  options.view_width = 64;
+  options.view_height = 40;
+  options.given = {"--size", "--view"};
+  return load_input(name, options);
+}
+
 }  // namespace
 
 TEST_CASE(
     "certificates hold the exact visibility on every scene, and are narrower than the bound") {
   for (const auto* name : {"planes", "garden", "slope", "beams", "rts", "city"}) {
-    scene_options options;
-    options.map_size = 96;
-    options.view_width = 64;
-    options.view_height = 40;
-    options.given = {"--size", "--view"};
-    const frame scene = load_input(name, options);
+    const frame scene = small_scene(name);
     for (const auto* format : {"unorm16", "half", "unorm24"}) {
       for (const int layers : {1, 4}) {
         configuration how;
@@ -104,12 +109,7 @@ TEST_CASE("certificates hold with mips, probes, transitions, reduction and tiny 
 
 TEST_CASE("certificates of summed-area tables hold the exact visibility on every scene") {
   for (const auto* name : {"planes", "garden", "slope", "beams", "rts", "city"}) {
-    scene_options options;
-    options.map_size = 96;
-    options.view_width = 64;
-    options.view_height = 40;
-    options.given = {"--size", "--view"};
-    const frame scene = load_input(name, options);
+    const frame scene = small_scene(name);
     configuration how;
     how.method = technique::savsm;
     how.min_variance = 1e-4;
