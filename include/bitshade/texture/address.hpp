@@ -1,6 +1,8 @@
 // What lies beyond an image's edge.
 #pragma once
 
+#include <cmath>
+
 namespace bitshade {
 
 enum class address { clamp, repeat, mirror, border };
@@ -32,6 +34,20 @@ constexpr int wrap(int i, int size, address mode) {
       return -1;
   }
   return -1;
+}
+
+/// The same place in a period around 0, so that its index fits an int however far out u lies.
+///
+///   repeat: u - floor u from 1 on; mirror: u - 2 floor(u/2) from 2 on; else u itself
+///
+/// Shapes   F: a floating type; u and its place are in units of the image.
+/// Error    none: from 1 on, u's own grid is coarse enough for the difference.
+/// Failure  none: what is not finite comes back as NaN or as it is.
+template <class F>
+F within_period(F u, address mode) {
+  const F period = mode == address::repeat ? F(1) : F(2);
+  if ((mode != address::repeat && mode != address::mirror) || std::fabs(u) < period) return u;
+  return u - period * std::floor(u / period);
 }
 
 }  // namespace bitshade

@@ -21,7 +21,9 @@ struct bilinear_taps {
 ///   x = u*w - 1/2, x0 = floor x, fx = x - x0;  y likewise
 ///
 /// Units    u, v in [0,1] across the image; texel centres lie at halves.
-/// Policy   every operation is T's; the indices are exact for the x that T gives.
+/// Policy   every operation is T's; the indices are exact for the x that T gives. Beyond
+///          max_texel_index the index is limited to it and the fraction 0: within_period() first
+///          where such places count.
 /// Failure  none: indices lie in the image or are -1 (address::border) for every u, v.
 template <class T>
 bilinear_taps<T> locate(const T& u, const T& v, int w, int h, address mode) {
@@ -29,8 +31,11 @@ bilinear_taps<T> locate(const T& u, const T& v, int w, int h, address mode) {
   const T y = v * static_cast<T>(h) - static_cast<T>(0.5);
   const int x0 = texel_floor(x);
   const int y0 = texel_floor(y);
-  return {wrap(x0, w, mode),     wrap(x0 + 1, w, mode),  wrap(y0, h, mode),
-          wrap(y0 + 1, h, mode), x - static_cast<T>(x0), y - static_cast<T>(y0)};
+  const auto fraction = [](const T& at, int floor) {
+    return beyond_indices(floor) ? static_cast<T>(0) : at - static_cast<T>(floor);
+  };
+  return {wrap(x0, w, mode),     wrap(x0 + 1, w, mode), wrap(y0, h, mode),
+          wrap(y0 + 1, h, mode), fraction(x, x0),       fraction(y, y0)};
 }
 
 /// a + f (b - a): every operation T's, no fma.

@@ -5,16 +5,13 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <type_traits>
 
 #include "bitshade/arithmetic/exact.hpp"
-#include "bitshade/formats/decode.hpp"
-#include "bitshade/formats/encode.hpp"
+#include "bitshade/texture/exact_rounding.hpp"
 #include "bitshade/texture/trilinear.hpp"
 
 namespace bitshade {
@@ -28,14 +25,6 @@ struct exact_source {
 
 namespace certified_detail {
 
-__extension__ typedef __int128 int128;
-
-template <class R>
-inline constexpr encoding target = std::is_same_v<R, float> ? binary_encoding(8, 23)
-                                                            : binary_encoding(11, 52);
-template <class R>
-inline constexpr bool is_result = std::is_same_v<R, float> || std::is_same_v<R, double>;
-
 /// Where (u, v) falls, without a rounding; nothing where binary64 cannot say it exactly.
 struct located {
   bilinear_taps<double> at;
@@ -43,6 +32,8 @@ struct located {
 };
 
 inline located locate_exactly(float u, float v, int w, int h, address mode) {
+  u = within_period(u, mode);
+  v = within_period(v, mode);
   // 24 bits times 17 fit 53; taking 1/2 away loses bits only near 0, which the sum back shows.
   const double ux = static_cast<double>(u) * w, vy = static_cast<double>(v) * h;
   const double x = ux - 0.5, y = vy - 0.5;
@@ -81,9 +72,20 @@ inline two two_product(double a, double b) {
 /// Error of bilinear_bounded in units of 2^-53 * max |texel| / divisor.
 ///
 /// With M = max |texel|: a difference is at most 2M and errs by 2; its product with a weight by 2
-/// more; the sum by 1: 5 a row. The second direction: 2 * 5 + 2 for the difference, 2 for the
-/// product, 5 + 1 for the sum: 20. The division adds 1; second-order terms stay under 1.
+/// more; the sum by 1: 5 a row. The second direction makes as many, and the rows' own come in by
+/// their weights, which sum to 1: 10. The division adds 1, the interval's end that is rounded to
+/// binary64 another; second-order terms stay far under the rest.
 inline constexpr double bilinear_bounded_error = 22;
+
+/// Error of bilinear_pairs in units of 2^-106 * max |texel| / divisor.
+///
+/// With M = max |texel|, sums and products of high parts lose nothing; low parts are sums of terms
+/// under 2^-53 of M each, which err by as many 2^-106. A row of texels without low parts: the low
+/// product 2, with the other half of the product 4, with the sum's rest 5: 11. The second
+/// direction: differences of low parts 2 and 4, the low product 4, sums 6, 7 and 8: 31, and the
+/// rows' own by their weights: 42. The division's remainder is exact; its sum with the low part
+/// errs by 2, the second quotient by 2.
+inline constexpr double bilinear_pairs_error = 46;
 
 namespace certified_detail {
 
@@ -108,10 +110,9 @@ inline bool decide(const bounded& x, float& result) {
   return low == high && low != 0;  // a zero's sign is left to the exact ways
 }
 
-/// The same in twice the precision, for binary64 results: |error| <= 2^-98 max |texel| / divisor
-/// (theory: each of at most 12 operations on pairs errs by at most 2^-102 of 4 max |texel|).
-inline bool decide_wide(double a, double b, double c, double d, double fx, double fy,
-                        double divisor, double& result) {
+/// Bilinear in pairs of binary64: the high part is the sum rounded to nearest.
+inline two bilinear_pairs(double a, double b, double c, double d, double fx, double fy,
+                          double divisor) {
   const auto lerp_pair = [](two from, two to, double f) {
     two difference = two_sum(to.high, -from.high);
     difference.low += to.low - from.low;
@@ -126,109 +127,27 @@ inline bool decide_wide(double a, double b, double c, double d, double fx, doubl
   const double q1 = value.high / divisor;
   const two back = two_product(q1, divisor);
   const double q2 = (((value.high - back.high) - back.low) + value.low) / divisor;
-  const two quotient = two_sum(q1, q2);
+  return two_sum(q1, q2);
+}
+
+/// The binary64 that every number near the pairs' sum rounds to, if there is one; the radius is
+/// twice the bound, so that its own roundings do not count.
+inline bool decide_wide(double a, double b, double c, double d, double fx, double fy,
+                        double divisor, double& result) {
+  const two value = bilinear_pairs(a, b, c, d, fx, fy, divisor);
   const double most =
       std::max(std::max(std::fabs(a), std::fabs(b)), std::max(std::fabs(c), std::fabs(d)));
-  const double radius = most * 0x1p-98 / divisor;
-  result = quotient.high;
-  return quotient.high + (quotient.low - radius) == quotient.high &&
-         quotient.high + (quotient.low + radius) == quotient.high && quotient.high != 0 &&
-         std::fabs(quotient.high) > 0x1p-900;
+  const double radius = most * (2 * bilinear_pairs_error * 0x1p-106) / divisor;
+  result = value.high;
+  return value.high + (value.low - radius) == value.high &&
+         value.high + (value.low + radius) == value.high && std::fabs(value.high) > 0x1p-900;
 }
 
-/// Bilinear in 128-bit integers, rounded once by division with a sticky remainder; nothing where
-/// weights or texels are too far apart for 126 bits.
-template <class R>
-std::optional<R> bilinear_integer(double a, double b, double c, double d, double fx, double fy,
-                                  double divisor) {
-  const double texel[4] = {a, b, c, d};
-  int lowest = 1000, highest = -1000;
-  for (const double t : texel) {
-    if (t == 0) continue;
-    const auto bits = std::bit_cast<std::uint64_t>(t);
-    const int exponent = static_cast<int>((bits >> 52) & 0x7ff) - 1075;
-    if (exponent < -1000) return std::nullopt;
-    const int zeros =
-        std::countr_zero((bits & ((std::uint64_t{1} << 52) - 1)) | (std::uint64_t{1} << 52));
-    lowest = std::min(lowest, exponent + zeros);
-    highest = std::max(highest, exponent + 53);
-  }
-  if (lowest > highest) return R{0};  // all four are zero
-  // The weights' own last bits: both lie on the grid of 2^-32.
-  const auto wx = static_cast<std::uint64_t>(fx * 0x1p32),
-             wy = static_cast<std::uint64_t>(fy * 0x1p32);
-  const int gx = wx == 0 ? 0 : 32 - std::countr_zero(wx),
-            gy = wy == 0 ? 0 : 32 - std::countr_zero(wy);
-  if (highest - lowest + gx + gy > 126) return std::nullopt;
-  const auto scaled = [&](double t) {
-    const auto bits = std::bit_cast<std::uint64_t>(t);
-    if (t == 0) return static_cast<int128>(0);
-    const int exponent = static_cast<int>((bits >> 52) & 0x7ff) - 1075;
-    auto m =
-        static_cast<int128>((bits & ((std::uint64_t{1} << 52) - 1)) | (std::uint64_t{1} << 52));
-    const int shift = exponent - lowest;
-    m = shift >= 0 ? m << shift : m >> -shift;
-    return t < 0 ? -m : m;
-  };
-  const auto ox = static_cast<int128>(std::uint64_t{1} << gx),
-             oy = static_cast<int128>(std::uint64_t{1} << gy);
-  const auto ix = static_cast<int128>(gx == 0 ? 0 : wx >> (32 - gx));
-  const auto iy = static_cast<int128>(gy == 0 ? 0 : wy >> (32 - gy));
-  const int128 upper = (ox - ix) * scaled(a) + ix * scaled(b);
-  const int128 lower = (ox - ix) * scaled(c) + ix * scaled(d);
-  const int128 sum = (oy - iy) * upper + iy * lower;
-  if (sum == 0) return R{0};
-  const bool negative = sum < 0;
-  uint128 magnitude = static_cast<uint128>(negative ? -sum : sum);
-  std::int64_t exponent = lowest - gx - gy;
-  bool sticky = false;
-  if (divisor != 1) {
-    const int room = 127 - bit_width(magnitude);
-    magnitude <<= room;
-    exponent -= room;
-    const auto by = static_cast<uint128>(divisor);
-    sticky = magnitude % by != 0;
-    magnitude /= by;
-  }
-  const std::uint64_t code = encode_scaled(target<R>, negative, magnitude, exponent, sticky, {}, 0);
-  return static_cast<R>(decode(target<R>, code));
-}
-
-/// The nearest R of an exact rational, ties to even.
-///
-/// Rationals know comparisons and a conversion that may err in its last bits: the guess is put
-/// right by comparing with the midpoints to both neighbours.
-template <class R, class T>
-R nearest_of(const T& x) {
-  using bits_type = std::conditional_t<std::is_same_v<R, float>, std::uint32_t, std::uint64_t>;
-  const T zero = static_cast<T>(0);
-  if (x == zero) return R{0};
-  const bool negative = x < zero;
-  const T size = negative ? zero - x : x;
-  auto guess = std::bit_cast<bits_type>(static_cast<R>(static_cast<double>(size)));
-  const auto value = [](bits_type bits) { return static_cast<double>(std::bit_cast<R>(bits)); };
-  const auto middle = [&](bits_type lower) {
-    return (static_cast<T>(value(lower)) + static_cast<T>(value(lower + 1))) / static_cast<T>(2);
-  };
-  constexpr bits_type largest =
-      std::is_same_v<R, float> ? bits_type{0x7f7fffff} : static_cast<bits_type>(0x7fefffffffffffff);
-  guess = std::min(guess, largest);
-  while (guess < largest) {
-    const T up = middle(guess);
-    if (up < size || (up == size && (guess & 1) != 0))
-      ++guess;
-    else
-      break;
-  }
-  while (guess > 0) {
-    const T down = middle(static_cast<bits_type>(guess - 1));
-    if (size < down || (size == down && (guess & 1) != 0))
-      --guess;
-    else
-      break;
-  }
-  const R result = std::bit_cast<R>(guess);
-  return negative ? -result : result;
+/// Whether a border, times the divisor, stands among the texels without a rounding.
+inline bool border_is_exact(double border, double divisor) {
+  if (border == 0 || divisor == 1) return true;
+  const double size = std::fabs(border);
+  return size > 0x1p-900 && size < 0x1p900 && two_product(border, divisor).low == 0;
 }
 
 }  // namespace certified_detail
@@ -248,7 +167,8 @@ template <class R, class T>
 R bilinear_rational(const exact_source& in, float u, float v, address mode, int channel,
                     double border = 0) {
   const int w = in.texels->width, h = in.texels->height;
-  const bilinear_taps<T> at = locate<T>(static_cast<T>(u), static_cast<T>(v), w, h, mode);
+  const bilinear_taps<T> at = locate<T>(static_cast<T>(within_period(u, mode)),
+                                        static_cast<T>(within_period(v, mode)), w, h, mode);
   const auto texel = [&](int x, int y) {
     return x < 0 || y < 0 ? static_cast<T>(border) * static_cast<T>(in.divisor)
                           : static_cast<T>(in.texels->at(x, y, channel));
@@ -263,7 +183,8 @@ R bilinear_rational(const exact_source& in, float u, float v, address mode, int 
 ///   binary64 (pairs of them for R = double) with an error bound and a rounding test; where it
 ///   cannot decide, 128-bit integers; where those are too narrow, rationals T
 ///
-/// Shapes   u and v finite; T: exact<Q>, needed only where the integers are too narrow.
+/// Shapes   u and v finite, |border| < 2^900; T: exact<Q>, needed only where the integers are too
+///          narrow.
 /// Error    none beyond the one rounding: bit for bit bilinear_rational.
 /// Failure  none; infinite or NaN texels give what binary64 arithmetic makes of them.
 template <class R, class T>
@@ -277,8 +198,10 @@ R bilinear_certified(const exact_source& in, float u, float v, address mode, int
   const double b = exact_texel(in, at.x1, at.y0, channel, border);
   const double c = exact_texel(in, at.x0, at.y1, channel, border);
   const double d = exact_texel(in, at.x1, at.y1, channel, border);
+  const bool exact =
+      where.exact && (mode != address::border || border_is_exact(border, in.divisor));
   R result{};
-  if (where.exact) {
+  if (exact) {
     bool decided;
     if constexpr (std::is_same_v<R, float>)
       decided = decide(bilinear_bounded(a, b, c, d, at.fx, at.fy, in.divisor), result);
@@ -291,7 +214,7 @@ R bilinear_certified(const exact_source& in, float u, float v, address mode, int
   }
   const double plain = bilinear_bounded(a, b, c, d, at.fx, at.fy, in.divisor).value;
   if (!std::isfinite(a + b + c + d)) return static_cast<R>(plain);
-  if (where.exact && (border == 0 || in.divisor == 1)) {
+  if (exact) {
     if (const auto value = bilinear_integer<R>(a, b, c, d, at.fx, at.fy, in.divisor)) {
       if (counts) ++counts->integer;
       return *value;

@@ -68,6 +68,12 @@ constexpr double log2_fixed(double x) {
 /// Largest index magnitude that texel_floor returns; coordinates beyond it are clamped to it.
 inline constexpr int max_texel_index = 1 << 30;
 
+/// Whether a floor is where texel_floor stops: the number itself may lie anywhere beyond, so that
+/// nothing is known of its distance from there.
+constexpr bool beyond_indices(int floor) {
+  return floor == max_texel_index || floor == -max_texel_index;
+}
+
 /// floor(x) as an index, for any ordered number T.
 ///
 /// Shapes   any x; the result lies within +-max_texel_index; NaN gives 0.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "bitshade/texture/certified.hpp"
@@ -10,10 +12,13 @@
 
 namespace bitshade {
 
+/// Most significant bits of a code that encode_exact rounds once: two fewer than binary64's.
+inline constexpr int exact_mip_bits = 51;
+
 /// The code of an exact rational, rounded once to nearest even.
 ///
-/// The value goes through binary64 rounded to odd, which no second rounding can spoil (at most 40
-/// bits are asked for); norms are scaled by their maximum first.
+/// The value goes through binary64 rounded to odd, which no second rounding can spoil (at most
+/// exact_mip_bits are asked for); norms are scaled by their maximum first.
 /// Source   [BoldoMelquiond08].
 template <class T>
 std::uint64_t encode_exact(const encoding& e, const T& x) {
@@ -39,10 +44,17 @@ std::uint64_t encode_exact(const encoding& e, const T& x) {
 ///
 /// Shapes   T: exact<Q>; means of norms are taken in 128-bit integers instead.
 /// Error    one rounding to nearest even a level.
+/// Failure  std::invalid_argument for codes wider than exact_mip_bits. Infinite or NaN texels give
+///          what binary64 makes of their mean.
 template <class T>
 std::vector<coded_image> exact_mip_chain(const texel_format& format, coded_image base,
                                          mip_filter filter) {
   using certified_detail::int128;
+  for (int c = 0; c < format.channels; ++c) {
+    const encoding& e = format.of[static_cast<std::size_t>(c)];
+    if ((e.kind == family::binary ? e.fraction_bits + 1 : e.width) > exact_mip_bits)
+      throw std::invalid_argument("exact mip chains take codes of at most 51 significant bits");
+  }
   filter_model codes;
   codes.texel = texel_rule::integers;
   std::vector<coded_image> levels;
@@ -79,6 +91,16 @@ std::vector<coded_image> exact_mip_chain(const texel_format& format, coded_image
             const auto code = static_cast<std::uint64_t>(whole);
             next.at(x, y, c) = (negative ? ~code + 1 : code) & low_bits(e.width);
           } else {
+            double plain = 0;
+            bool finite = true;
+            each([&](std::int64_t w, double t) {
+              plain += static_cast<double>(w) * t;
+              finite = finite && std::isfinite(t);
+            });
+            if (!finite) {  // no rational is, and dividing by weights would change nothing
+              next.at(x, y, c) = encode(e, plain);
+              continue;
+            }
             T sum = static_cast<T>(0);
             each([&](std::int64_t w, double t) {
               sum = sum + static_cast<T>(static_cast<double>(w)) * static_cast<T>(t);

@@ -24,6 +24,8 @@ namespace bitshade {
 /// Policy   mip fractions unrounded; formats of at most 24 bits a code, or binary32 and narrower.
 /// Error    none beyond one rounding to R.
 /// Failure  the constructor throws std::invalid_argument for an empty chain or a wider format.
+///          Infinite or NaN texels give what binary64 arithmetic makes of them; a u or v that is
+///          not finite throws std::domain_error, since no rational is.
 template <class T>
 class exact_sampler {
  public:
@@ -47,6 +49,8 @@ class exact_sampler {
           is_norm(e) ? static_cast<double>((std::uint64_t{1} << digits) - 1) : 1.0;
     }
     chain_ = load_chain<float>(codes, format, chain);
+    for (const image<float>& level : chain_)
+      for (const float t : level.texels) finite_ = finite_ && std::isfinite(t);
   }
 
   template <class R = float>
@@ -66,19 +70,12 @@ class exact_sampler {
   template <class R>
   R rational(const probe_set& probes, float u, float v, double lambda, int channel) const {
     const level_blend blend = levels(lambda);
-    T sum = static_cast<T>(0);
-    for (const auto& offset : probes.offsets) {
-      const T pu = static_cast<T>(u) + static_cast<T>(offset.du);
-      const T pv = static_cast<T>(v) + static_cast<T>(offset.dv);
-      const auto level = [&](int l) { return rational_level(l, pu, pv, channel); };
-      T value = level(blend.near);
-      if (blend.fraction != 0)
-        value = lerp(value, level(blend.far), static_cast<T>(blend.fraction));
-      sum = sum + value;
+    if (!finite_) {
+      // No rational is infinite or NaN: what binary64 makes of the texels says whether one is read.
+      const double plain = mean<double>(probes, u, v, blend, channel);
+      if (!std::isfinite(plain)) return static_cast<R>(plain);
     }
-    const T whole = static_cast<T>(static_cast<int>(probes.offsets.size())) *
-                    static_cast<T>(divisor_[static_cast<std::size_t>(channel)]);
-    return certified_detail::nearest_of<R, T>(sum / whole);
+    return certified_detail::nearest_of<R, T>(mean<T>(probes, u, v, blend, channel));
   }
 
  private:
@@ -96,26 +93,49 @@ class exact_sampler {
 
   double border(int channel) const { return state_.border[static_cast<std::size_t>(channel)]; }
 
-  T texel(int level, int x, int y, int channel) const {
+  template <class N>
+  N texel(int level, int x, int y, int channel) const {
     const auto c = static_cast<std::size_t>(channel);
-    if (x < 0 || y < 0) return static_cast<T>(state_.border[c]) * static_cast<T>(divisor_[c]);
-    return static_cast<T>(chain_[static_cast<std::size_t>(level)].at(x, y, channel));
+    if (x < 0 || y < 0) return static_cast<N>(state_.border[c]) * static_cast<N>(divisor_[c]);
+    return static_cast<N>(chain_[static_cast<std::size_t>(level)].at(x, y, channel));
   }
 
-  T rational_level(int level, const T& u, const T& v, int channel) const {
+  template <class N>
+  N level_value(int level, const N& u, const N& v, int channel) const {
     const image<float>& in = chain_[static_cast<std::size_t>(level)];
     if (!state_.linear)
-      return texel(level, wrap(texel_floor(u * static_cast<T>(in.width)), in.width, state_.u),
-                   wrap(texel_floor(v * static_cast<T>(in.height)), in.height, state_.v), channel);
-    const T half = static_cast<T>(0.5);
-    const T x = u * static_cast<T>(in.width) - half, y = v * static_cast<T>(in.height) - half;
+      return texel<N>(level, wrap(texel_floor(u * static_cast<N>(in.width)), in.width, state_.u),
+                      wrap(texel_floor(v * static_cast<N>(in.height)), in.height, state_.v),
+                      channel);
+    const N half = static_cast<N>(0.5);
+    const N x = u * static_cast<N>(in.width) - half, y = v * static_cast<N>(in.height) - half;
     const int x0 = texel_floor(x), y0 = texel_floor(y);
     const int xs[2] = {wrap(x0, in.width, state_.u), wrap(x0 + 1, in.width, state_.u)};
     const int ys[2] = {wrap(y0, in.height, state_.v), wrap(y0 + 1, in.height, state_.v)};
-    const T fx = x - static_cast<T>(x0), fy = y - static_cast<T>(y0);
-    return lerp(lerp(texel(level, xs[0], ys[0], channel), texel(level, xs[1], ys[0], channel), fx),
-                lerp(texel(level, xs[0], ys[1], channel), texel(level, xs[1], ys[1], channel), fx),
-                fy);
+    const N fx = x - static_cast<N>(x0), fy = y - static_cast<N>(y0);
+    const auto row = [&](int j) {
+      return lerp(texel<N>(level, xs[0], ys[j], channel), texel<N>(level, xs[1], ys[j], channel),
+                  fx);
+    };
+    return lerp(row(0), row(1), fy);
+  }
+
+  template <class N>
+  N mean(const probe_set& probes, float u, float v, const level_blend& blend, int channel) const {
+    N sum = static_cast<N>(0);
+    for (const auto& offset : probes.offsets) {
+      const N pu = static_cast<N>(within_period(u, state_.u)) +
+                   static_cast<N>(within_period(offset.du, state_.u));
+      const N pv = static_cast<N>(within_period(v, state_.v)) +
+                   static_cast<N>(within_period(offset.dv, state_.v));
+      N value = level_value<N>(blend.near, pu, pv, channel);
+      if (blend.fraction != 0)
+        value =
+            lerp(value, level_value<N>(blend.far, pu, pv, channel), static_cast<N>(blend.fraction));
+      sum = sum + value;
+    }
+    return sum / (static_cast<N>(static_cast<int>(probes.offsets.size())) *
+                  static_cast<N>(divisor_[static_cast<std::size_t>(channel)]));
   }
 
   /// One bilinear lookup as an interval; nothing where the coordinates are not exact in binary64.
@@ -124,7 +144,9 @@ class exact_sampler {
     using namespace certified_detail;
     const image<float>& in = chain_[static_cast<std::size_t>(level)];
     const located where = locate_exactly(u, v, in.width, in.height, state_.u);
-    if (!where.exact) return false;
+    if (!where.exact ||
+        !border_is_exact(border(channel), divisor_[static_cast<std::size_t>(channel)]))
+      return false;
     const auto& at = where.at;
     const exact_source source{&in, divisor_[static_cast<std::size_t>(channel)]};
     const double outside = border(channel);
@@ -143,10 +165,14 @@ class exact_sampler {
     constexpr double unit = 0x1p-53;
     sum = {0, 0};
     for (const auto& offset : probes.offsets) {
-      const double wu = static_cast<double>(u) + offset.du, wv = static_cast<double>(v) + offset.dv;
-      const auto pu = static_cast<float>(wu), pv = static_cast<float>(wv);
-      if (static_cast<double>(pu) != wu || static_cast<double>(pv) != wv ||
-          wu - offset.du != static_cast<double>(u) || wv - offset.dv != static_cast<double>(v))
+      const auto place = [](float at, double by, address mode) {
+        return certified_detail::two_sum(static_cast<double>(within_period(at, mode)),
+                                         within_period(by, mode));
+      };
+      const auto wu = place(u, offset.du, state_.u), wv = place(v, offset.dv, state_.v);
+      const auto pu = static_cast<float>(wu.high), pv = static_cast<float>(wv.high);
+      if (static_cast<double>(pu) != wu.high || static_cast<double>(pv) != wv.high || wu.low != 0 ||
+          wv.low != 0)
         return false;
       bounded a, b;
       if (!bounded_level(blend.near, pu, pv, channel, a)) return false;
@@ -194,6 +220,7 @@ class exact_sampler {
   sampler_state state_;
   std::vector<image<float>> chain_;
   std::array<double, 4> divisor_{1, 1, 1, 1};
+  bool finite_ = true;
 };
 
 }  // namespace bitshade

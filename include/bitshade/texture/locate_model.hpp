@@ -19,11 +19,6 @@ struct axis_taps {
 
 namespace locate_detail {
 
-/// Whether a floor is where texel_floor stops: the number itself may lie anywhere beyond.
-constexpr bool beyond_indices(int floor) {
-  return floor == max_texel_index || floor == -max_texel_index;
-}
-
 /// Whole texels apart, so that no coordinate is too large for its grid.
 template <class T>
 T on_grid(const T& x, int bits, snap how) {
