@@ -77,7 +77,7 @@ enum class norm_store : std::uint8_t {
 /// How a device samples.
 struct filter_model {
   std::string_view name;
-  std::string_view source;  ///< keys into docs/bibliography.md
+  std::string_view source;  ///< "KEY: places; KEY: ..", keys of docs/bibliography.md
 
   texel_rule texel = texel_rule::nearest;
   clamp_rule clamp = clamp_rule::indices;

@@ -1,5 +1,5 @@
-// The devices known by name. Each line's source is in docs/bibliography.md, each is held to its
-// device or to its specification by tests/conformance.
+// The devices known by name. Each cites a key of docs/bibliography.md and the places there; each is
+// held to its device, its specification or its definition by tests/conformance/texture.
 #pragma once
 
 #include <array>
@@ -19,22 +19,30 @@ constexpr rules toward_zero_saturating() {
   return r;
 }
 
-/// Not a device: what arithmetic says, from the stored texels on. certified.hpp evaluates it with
-/// one rounding; interpreted by sampler.hpp in exact<Q> it has none.
+/// Not a device: the specification's formulas without their tolerances, from the stored texels on.
+/// exact_sampler.hpp evaluates them with one rounding; in exact<Q>, sampler.hpp has none. Levels are
+/// means over areas, which no specification names: any two filters agree on even sizes.
+///
+/// Source  [Vulkan] Image Operations: "Texel Filtering", "Wrapping Operation", "Scale Factor
+///         Operation, Level-of-Detail Operation and Image Level(s) Selection"; Fixed-Point Data
+///         Conversions.
 constexpr filter_model exact() {
   filter_model m;
   m.name = "exact";
-  m.source = "Vulkan";
+  m.source = "Vulkan: Image Operations, Fixed-Point Data Conversions";
   m.mips = mip_filter::area;
   return m;
 }
 
 /// The least that Direct3D 11.3 promises: 8 bits of coordinate, snapped to nearest so that a carry
-/// moves to the next texel, weights 1 - w, 8 bits of mip fraction.
+/// moves to the next texel, weights 1 - w, 8 bits of mip fraction; floats stored toward zero.
+///
+/// Source  [D3D11] 7.18.8 (coordinates), 7.18.10 (mip fraction), 7.18.11 (anisotropy), 7.18.16
+///         (weights), 3.2.2 (stores).
 constexpr filter_model d3d11() {
   filter_model m;
   m.name = "d3d11";
-  m.source = "D3D11 7.18.8-7.18.16, 3.2.2";
+  m.source = "D3D11: 7.18.8-7.18.16, 3.2.2";
   m.grid_bits = 8;
   m.grid_snap = snap::nearest;
   m.mip_bits = 8;
@@ -45,10 +53,12 @@ constexpr filter_model d3d11() {
 
 /// Vulkan's roadmap profile at its least: 8 bits of coordinate, 6 of mip fraction, rounded down,
 /// which passes the conformance suite's strict check.
+///
+/// Source  [Vulkan] Roadmap 2022: subTexelPrecisionBits, mipmapPrecisionBits; [CTS].
 constexpr filter_model vulkan_strict() {
   filter_model m;
   m.name = "vulkan-strict";
-  m.source = "Vulkan, CTS";
+  m.source = "Vulkan: Roadmap 2022; CTS";
   m.grid_bits = 8;
   m.grid_snap = snap::floor;
   m.mip_bits = 6;
@@ -57,10 +67,12 @@ constexpr filter_model vulkan_strict() {
 
 /// 9-bit fixed-point weights, 8 of them fraction, so that 1 has a code of its own. The guide says
 /// nothing of the sums; here they are rounded once, so that constants stay constant.
+///
+/// Source  [CUDA] Texture Fetching, "Linear Filtering".
 constexpr filter_model cuda() {
   filter_model m;
   m.name = "cuda";
-  m.source = "CUDA";
+  m.source = "CUDA: Texture Fetching";
   m.weight_bits = 8;
   m.weight_snap = snap::nearest;
   m.order = accumulation::four_products;
@@ -69,10 +81,13 @@ constexpr filter_model cuda() {
   return m;
 }
 
+/// Whatever is not 8-bit unorm: binary32 without a grid, fused where the processor fuses.
+///
+/// Source  [Mesa22] llvmpipe, gallivm's sampler: measured, tests/conformance/texture/mesa.cpp.
 constexpr filter_model llvmpipe() {
   filter_model m;
   m.name = "llvmpipe";
-  m.source = "Mesa22";
+  m.source = "Mesa22: llvmpipe";
   m.texel = texel_rule::reciprocal;
   m.clamp = clamp_rule::centred;
   m.repeat = repeat_rule::fraction_unless_power_of_two;
@@ -84,6 +99,9 @@ constexpr filter_model llvmpipe() {
   return m;
 }
 
+/// 8-bit unorm: 8.8 coordinates, 8-bit weights, every lerp rounded to 8 bits.
+///
+/// Source  [Mesa22] llvmpipe, gallivm's sampler for 8-bit channels: measured, the same.
 constexpr filter_model llvmpipe_r8() {
   filter_model m = llvmpipe();
   m.name = "llvmpipe-r8";
@@ -97,9 +115,11 @@ constexpr filter_model llvmpipe_r8() {
   return m;
 }
 
+/// Source  [Mesa22] softpipe: measured, the same.
 constexpr filter_model softpipe() {
   filter_model m = llvmpipe();
   m.name = "softpipe";
+  m.source = "Mesa22: softpipe";
   m.clamp = clamp_rule::scaled;
   m.repeat = repeat_rule::scaled;
   m.order = accumulation::lerp_mul_add;
@@ -111,10 +131,13 @@ constexpr filter_model softpipe() {
   return m;
 }
 
+/// Norms are filtered as integers and scaled last.
+///
+/// Source  [SwiftShader]: recorded samples, tests/conformance/texture/recorded.cpp.
 constexpr filter_model swiftshader() {
   filter_model m;
   m.name = "swiftshader";
-  m.source = "SwiftShader";
+  m.source = "SwiftShader: recorded";
   m.texel = texel_rule::integers;
   m.clamp = clamp_rule::unit;
   m.repeat = repeat_rule::fraction;

@@ -57,6 +57,11 @@ TEST_CASE("presets reproduce our recordings of llvmpipe and softpipe bit for bit
   check_folder(own_vectors, 5000);
 }
 
+// SwiftShader is not to be had as a package: a part of its recordings stands here.
+TEST_CASE("the preset swiftshader reproduces a part of its recordings bit for bit") {
+  check_folder(own_vectors.parent_path() / "swiftshader", 600);
+}
+
 TEST_CASE("presets reproduce the recordings that BITSHADE_VECTORS names bit for bit") {
   const char* folder = std::getenv("BITSHADE_VECTORS");
   if (folder == nullptr || *folder == 0) {
