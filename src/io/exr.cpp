@@ -3,43 +3,19 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
-#include <ImfPartType.h>
 
 #include <cstring>
 #include <new>
 
 #include "io/depth_file.hpp"
 #include "io/error.hpp"
+#include "io/exr_memory.hpp"
 
 namespace bitshade {
 namespace {
-
-class memory_input : public Imf::IStream {
- public:
-  memory_input(std::span<const std::uint8_t> bytes, const std::string& name)
-      : Imf::IStream(name.c_str()), bytes_(bytes) {}
-  bool read(char out[], int count) override {
-    if (count < 0 || static_cast<std::uint64_t>(count) > bytes_.size() - at_) {
-      throw failure("the file ends too early");
-    }
-    std::memcpy(out, bytes_.data() + at_, static_cast<std::size_t>(count));
-    at_ += static_cast<std::uint64_t>(count);
-    return at_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return at_; }
-  void seekg(std::uint64_t at) override {
-    if (at > bytes_.size()) throw failure("it points beyond its own end");
-    at_ = at;
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-  std::uint64_t at_ = 0;
-};
 
 class memory_output : public Imf::OStream {
  public:
@@ -79,24 +55,12 @@ void read_rows(Imf::InputPart& file, const Imath::Box2i& window, Imf::PixelType 
 
 stored_depths decode(std::span<const std::uint8_t> bytes, const std::string& name,
                      const std::string& channel) {
-  // OpenEXR's own guards, for what it allocates before the header can be looked at.
-  [[maybe_unused]] static const bool guarded = [] {
-    Imf::Header::setMaxImageSize(65536, 65536);
-    Imf::Header::setMaxTileSize(4096, 4096);
-    return true;
-  }();
-  memory_input input(bytes, name);
-  Imf::MultiPartInputFile parts(input, 0, false);
+  exr_memory memory(bytes, name);
+  Imf::MultiPartInputFile parts(memory, 0, false);
   const Imf::Header& header = parts.header(0);
-  if (header.hasType() && header.type() != Imf::SCANLINEIMAGE && header.type() != Imf::TILEDIMAGE) {
-    throw failure("cannot read " + name + ": it is a deep image; flatten it first");
-  }
   std::vector<std::string> names;
-  std::uint64_t texel_bytes = 0;
-  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
     names.emplace_back(c.name());
-    texel_bytes += c.channel().type == Imf::HALF ? 2 : 4;
-  }
   if (names.empty()) throw failure("cannot read " + name + ": it has no channels; write it again");
   const std::string picked = names[pick_channel(names, channel, name)];
   const Imf::Channel& c = header.channels()[picked.c_str()];
@@ -104,18 +68,7 @@ stored_depths decode(std::span<const std::uint8_t> bytes, const std::string& nam
     throw failure("cannot read " + name + ": its channel " + picked +
                   " is subsampled; write it at full size");
   }
-  const Imath::Box2i window = header.dataWindow();
-  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  check_image_size(width, height, name);
-  // Up to 256 lines or a row of tiles are decoded at a time: a header of a few bytes must not ask
-  // for gigabytes.
-  const std::uint64_t lines = header.hasTileDescription() ? header.tileDescription().ySize : 256;
-  if (static_cast<std::uint64_t>(width) * texel_bytes * lines > (std::uint64_t{1} << 29)) {
-    throw failure("cannot read " + name + ": " + std::to_string(names.size()) + " channels of " +
-                  std::to_string(width) + " columns are too many; write the depth alone");
-  }
-
+  const Imath::Box2i window = checked_window(header, name);
   Imf::InputPart file(parts, 0);
   stored_depths out;
   if (c.type == Imf::UINT) {
@@ -124,8 +77,8 @@ stored_depths decode(std::span<const std::uint8_t> bytes, const std::string& nam
   } else {  // halves widen to float without loss
     read_rows<float>(file, window, Imf::FLOAT, picked, out.values.texels);
   }
-  out.values.width = static_cast<int>(width);
-  out.values.height = static_cast<int>(height);
+  out.values.width = window.max.x - window.min.x + 1;
+  out.values.height = window.max.y - window.min.y + 1;
   return out;
 }
 
@@ -144,7 +97,7 @@ stored_depths decode_exr(std::span<const std::uint8_t> bytes, const std::string&
     throw;
   } catch (const std::bad_alloc&) {
     throw failure("cannot read " + name + ": it does not fit into memory; write a smaller one");
-  } catch (const std::exception& e) {  // Iex::BaseExc, and ours from within the stream
+  } catch (const std::exception& e) {  // Iex::BaseExc, and the stream's own
     const std::string why = e.what();
     if (why.starts_with("cannot read ")) throw;
     throw failure("cannot read " + name + ": " + why.substr(0, why.find('\n')) +
