@@ -16,7 +16,7 @@ struct options {
 
 void convert(const options& given) {
   const named_texture texture = read_texture(given.texture, given.name);
-  const named_texture result = in_format(choose_preset(given.preset, {}), texture, given.format);
+  const named_texture result = in_format(choose_preset(given.preset), texture, given.format);
   write_texture(result, given.json, given.out);
 }
 

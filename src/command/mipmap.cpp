@@ -21,7 +21,7 @@ void make_chain(const options& given) {
   named_texture texture = read_texture(given.texture, given.name);
   texture.levels.resize(1);
   if (!given.format.empty())
-    texture = in_format(choose_preset(given.preset, {}), texture, given.format);
+    texture = in_format(choose_preset(given.preset), texture, given.format);
   filter_model model = choose_preset(given.preset, texture.format);
   if (!given.mips.empty()) {
     static constexpr std::string_view known[] = {"box", "centre", "area"};

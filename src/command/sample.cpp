@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bitshade/formats/hexadecimal.hpp"
+#include "bitshade/texture/ewa.hpp"
 #include "command/commands.hpp"
 #include "command/sampling.hpp"
 #include "command/texture_options.hpp"
@@ -85,8 +86,8 @@ void answer(const texture_sampler& sampler, int channels, const coordinates& whe
     std::string line = !json ? "" : first ? "\n {" : ",\n {";
     first = false;
     for (int c = 0; c < channels; ++c) {
-      const float value =
-          where.gradient ? sampler.gradient(at.u, at.v, at.g, c) : sampler.lod(at.u, at.v, at.lod, c);
+      const float value = where.gradient ? sampler.gradient(at.u, at.v, at.g, c)
+                                         : sampler.lod(at.u, at.v, at.lod, c);
       const std::string number = hexadecimal(static_cast<double>(value));
       if (c > 0) line += json ? ", " : ",";
       line += json ? std::string("\"") + letters[c] + "\": \"" + number + '"' : number;
@@ -96,11 +97,32 @@ void answer(const texture_sampler& sampler, int channels, const coordinates& whe
   if (json) std::cout << "\n]\n";
 }
 
+/// Refuses ellipses that would take a second each: llvmpipe averages however long they are.
+void check_ellipses(const filter_model& model, const named_texture& texture,
+                    const sampler_state& state, const coordinates& where, const std::string& file) {
+  constexpr double most_texels = 0x1p26;
+  const bool unlimited = model.anisotropy == anisotropy_rule::ewa_unlimited;
+  if (state.max_anisotropy <= 1 || (!unlimited && model.anisotropy != anisotropy_rule::ewa)) return;
+  const coded_image& base = texture.levels.front();
+  const int last = static_cast<int>(texture.levels.size()) - 1;
+  for (std::size_t i = 0; i < where.lookups.size(); ++i) {
+    const gradients& g = where.lookups[i].g;
+    const int level =
+        ewa_level(model, g, base.width, base.height, unlimited ? 0 : state.max_anisotropy);
+    if (level >= last) continue;
+    const ewa_ellipse ellipse(g, base.width, base.height, std::max(0, level));
+    if (ewa_texels(ellipse) > most_texels)
+      throw failure(file + ": lookup " + std::to_string(i + 1) + " averages an ellipse of over " +
+                    std::to_string(static_cast<long>(most_texels)) + " texels of level " +
+                    std::to_string(std::max(0, level)) + "; bring its derivatives closer together");
+  }
+}
+
 void sample(const options& given) {
   const sampler_state state = state_of(given);
   named_texture texture = read_texture(given.texture, given.name);
   if (!given.format.empty())
-    texture = in_format(choose_preset(given.preset, {}), texture, given.format);
+    texture = in_format(choose_preset(given.preset), texture, given.format);
   const filter_model model = choose_preset(given.preset, texture.format);
   const std::vector<std::uint8_t> bytes = read_file(given.coordinates);
   const coordinates where = parse_coordinates(
@@ -110,6 +132,7 @@ void sample(const options& given) {
         "--max-anisotropy needs coordinates with derivatives: u,v,dudx,dvdx,dudy,dvdy");
   if (state.mips != mip_selection::none) complete_chain(model, texture);
 
+  check_ellipses(model, texture, state, where, given.coordinates);
   answer(*make_texture_sampler(model, texture, state), texture.format.channels, where, given.json);
 }
 

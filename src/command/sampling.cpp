@@ -3,6 +3,7 @@
 #include "bitshade/interop/rational.hpp"
 #include "bitshade/texture/device_sampler.hpp"
 #include "bitshade/texture/exact_sampler.hpp"
+#include "command/texture_options.hpp"
 
 namespace bitshade::command {
 namespace {
@@ -42,8 +43,12 @@ class exact : public texture_sampler {
 std::unique_ptr<texture_sampler> make_texture_sampler(const filter_model& model,
                                                       const named_texture& texture,
                                                       const sampler_state& state) {
-  if (model.name == "exact") return std::make_unique<exact>(texture, state);
-  return std::make_unique<device>(model, texture, state);
+  try {
+    if (model.name == "exact") return std::make_unique<exact>(texture, state);
+    return std::make_unique<device>(model, texture, state);
+  } catch (const std::invalid_argument& e) {
+    throw refused_format(texture, e.what());
+  }
 }
 
 }  // namespace bitshade::command

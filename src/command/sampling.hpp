@@ -16,6 +16,7 @@ class texture_sampler {
 };
 
 /// The model's sampler; for the preset `exact`, the exact value rounded once to binary32.
+/// Throws failure where the preset takes no such format.
 std::unique_ptr<texture_sampler> make_texture_sampler(const filter_model& model,
                                                       const named_texture& texture,
                                                       const sampler_state& state);

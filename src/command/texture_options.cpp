@@ -2,6 +2,7 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "bitshade/interop/rational.hpp"
@@ -15,19 +16,22 @@
 
 namespace bitshade::command {
 
+filter_model choose_preset(const std::string& name) {
+  if (const auto found = find_preset(name)) return *found;
+  std::vector<std::string_view> known;
+  for (const filter_model& m : presets) known.push_back(m.name);
+  throw usage_error("--preset: no preset '" + name + "'; " + suggest(name, known));
+}
+
 filter_model choose_preset(const std::string& name, const texel_format& format) {
   bool bytes = true;
   for (int c = 0; c < format.channels; ++c)
     bytes = bytes && format.of[static_cast<std::size_t>(c)] == unorm_encoding(8);
   if (name == "llvmpipe" && bytes) return *find_preset("llvmpipe-r8");
-  if (const auto found = find_preset(name)) {
-    if (found->order == accumulation::lerp_codes && !bytes)
-      throw usage_error("--preset " + name + " filters 8-bit unorm alone; use llvmpipe");
-    return *found;
-  }
-  std::vector<std::string_view> known;
-  for (const filter_model& m : presets) known.push_back(m.name);
-  throw usage_error("--preset: no preset '" + name + "'; " + suggest(name, known));
+  const filter_model found = choose_preset(name);
+  if (found.order == accumulation::lerp_codes && !bytes)
+    throw usage_error("--preset " + name + " filters 8-bit unorm alone; use llvmpipe");
+  return found;
 }
 
 named_texture in_format(const filter_model& model, const named_texture& texture,
@@ -62,9 +66,19 @@ named_texture in_format(const filter_model& model, const named_texture& texture,
 void complete_chain(const filter_model& model, named_texture& texture) {
   if (texture.levels.size() > 1) return;
   coded_image base = std::move(texture.levels.front());
-  texture.levels = model.name == "exact" ? exact_mip_chain<exact_rational>(
-                                               texture.format, std::move(base), model.mips)
-                                         : device_mip_chain(model, texture.format, std::move(base));
+  try {
+    texture.levels =
+        model.name == "exact"
+            ? exact_mip_chain<exact_rational>(texture.format, std::move(base), model.mips)
+            : device_mip_chain(model, texture.format, std::move(base));
+  } catch (const std::invalid_argument& e) {
+    throw refused_format(texture, e.what());
+  }
+}
+
+failure refused_format(const named_texture& texture, const std::string& why) {
+  return failure("texture '" + texture.name + "' is " + name_of(texture.format) + ", but " + why +
+                 "; store it in a narrower one with --format");
 }
 
 namespace {
@@ -79,9 +93,10 @@ std::string levels_in_json(const named_texture& texture) {
       if (i % channels == 0) texels.push_back(nlohmann::ordered_json::array());
       texels.back().push_back("0x" + raw_word(texture.format, i % channels, in.texels[i]));
     }
-    const nlohmann::ordered_json line{{"texture", texture.name}, {"format", name_of(texture.format)},
-                                      {"level", level},          {"width", in.width},
-                                      {"height", in.height},     {"texels", std::move(texels)}};
+    const nlohmann::ordered_json line{
+        {"texture", texture.name}, {"format", name_of(texture.format)},
+        {"level", level},          {"width", in.width},
+        {"height", in.height},     {"texels", std::move(texels)}};
     out += (level == 0 ? "\n " : ",\n ") + line.dump();
   }
   return out + "\n]\n";

@@ -127,8 +127,46 @@ TEST_CASE("the texture commands answer in JSON what they answer in lines") {
   CHECK(json::parse(contents(here / "s.json"))[0]["texels"][1] == json({"0x2000", "0x4000"}));
 }
 
+TEST_CASE("llvmpipe-r8 takes what --format makes 8-bit unorm, and stores any format as llvmpipe") {
+  const folder here;
+  const auto with = [&](std::vector<std::string> arguments, const char* preset) {
+    arguments.insert(arguments.end(), {"--texture", "grey.png", "--preset", preset});
+    const outcome done = here.run(arguments);
+    CHECK(done.status == 0);
+    CHECK(done.err.empty());
+    return done.out;
+  };
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"sample", "--coords", "c.csv", "--format", "unorm8"},
+           {"mipmap", "--format", "unorm8"},
+           {"convert", "--format", "unorm8"},
+           {"convert", "--format", "half"}})
+    CHECK(with(arguments, "llvmpipe-r8") == with(arguments, "llvmpipe"));
+}
+
+TEST_CASE("exact sampling and chains of texels that are no numbers, and of far coordinates") {
+  const folder here;
+  write(here / "odd.csv", header + "a,R16_FLOAT,0,2,2,7e00 3c00 7c00 3800\n");
+  write(here / "where.csv", "0.9,0.9,0\n0.1,0.1,0\n0.25,0.75,0\n");
+  CHECK(here.run({"sample", "--texture", "odd.csv", "--coords", "where.csv", "--filter", "nearest"})
+            .out == "0x1p-1\nnan\ninf\n");
+  CHECK(here.run({"sample", "--texture", "odd.csv", "--coords", "where.csv", "--filter", "trilinear"})
+            .status == 0);
+  CHECK(here.run({"mipmap", "--texture", "odd.csv"}).out.ends_with("a,R16_FLOAT,1,1,1,7e00\n"));
+  write(here / "far.csv", "1073741822,-1073741822,0\n");
+  write(here / "near.csv", "0,0,0\n");
+  for (const char* wrap : {"repeat", "mirror"}) {
+    const auto at = [&](const char* file) {
+      return here.run({"sample", "--texture", "grey.png", "--coords", file, "--wrap", wrap}).out;
+    };
+    CHECK(at("far.csv") == at("near.csv"));
+  }
+}
+
 TEST_CASE("bad textures, coordinates and options: one sentence, the place in it, no output") {
   const folder here;
+  write(here / "double.csv", header + "a,R64_FLOAT,0,2,1,3ff0000000000001 3ff0000000000000\n");
+  write(here / "line.csv", "0.5,0.5,0,0,0,0\n0.5,0.5,1e9,0,0,1e-9\n");
   write(here / "no-header.csv", "a,R8_UNORM,0,1,1,00\n");
   write(here / "few.csv", header + "a,R8_UNORM,0,60000,60000,00\n");
   write(here / "wide.csv", header + "a,R8_UNORM,0,1,1,1ff\n");
@@ -157,6 +195,12 @@ TEST_CASE("bad textures, coordinates and options: one sentence, the place in it,
            {1, {"mipmap", "--texture", "level.csv"}, "level 1"},
            {1, {"convert", "--texture", "short.png", "--format", "half"}, "ends too early"},
            {1, {"convert", "--texture", "none.exr", "--format", "half"}, "none.exr"},
+           {1, {"mipmap", "--texture", "double.csv"}, "'a' is R64_FLOAT"},
+           {1, {"sample", "--texture", "double.csv", "--coords", "c.csv"}, "with --format"},
+           {1,
+            {"sample", "--texture", "grey.png", "--coords", "line.csv", "--preset", "llvmpipe",
+             "--filter", "trilinear", "--max-anisotropy", "4"},
+            "line.csv: lookup 2"},
            {2, {"convert", "--texture", "t.txt", "--format", "half"}, ".csv, .png or .exr"},
            {2, {"convert", "--texture", "t.csv", "--format", "half"}, "--name"},
            {2, {"convert", "--texture", "grey.png", "--format", "hafl"}, "half"},

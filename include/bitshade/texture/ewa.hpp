@@ -85,6 +85,11 @@ struct ewa_ellipse {
   }
 };
 
+/// Texels in the ellipse's bounding box, all of which ewa_sum visits.
+inline double ewa_texels(const ewa_ellipse& e) {
+  return (2 * static_cast<double>(e.box_u) + 2) * (2 * static_cast<double>(e.box_v) + 2);
+}
+
 /// sum w texel / sum w over the ellipse's bounding box, row by row, q by forward differences.
 ///
 /// Shapes   texel: float(float u, float v), the nearest texel at normalised coordinates;
