@@ -15,8 +15,10 @@ namespace bitshade {
 
 /// Samples one chain of a stored texture as a model does.
 ///
-/// Policy   models that round the result once are evaluated in binary64 and rounded to binary32
-///          at the end; all others operate in binary32 throughout.
+/// Policy   models with an `intermediate` rounding are evaluated in binary64, which holds what is
+///          to be rounded, and narrowed to binary32 at the end; the result of intermediate::result
+///          is rounded to the model's `rounded_to`, scaled codes included. All others operate in
+///          binary32 throughout.
 /// Failure  the constructor throws std::invalid_argument for an empty chain, or where the model
 ///          filters codes that the format does not have; sampling never fails.
 class device_sampler {
@@ -35,11 +37,17 @@ class device_sampler {
     if (model.order == accumulation::lerp_codes &&
         (!simple(state.u) || !simple(state.v) || state.max_anisotropy > 1))
       model_ = preset_detail::llvmpipe();
-    wide_ = model.rounding == intermediate::result;
-    if (wide_)
+    wide_ = model.rounding != intermediate::none;
+    if (model.rounding == intermediate::result) {
       wide_chain_ = load_chain<double>(model_, format, chain);
-    else
+    } else {
       chain_ = load_chain<float>(model_, format, chain);
+      if (wide_)
+        for (const image<float>& level : chain_) {
+          image<double>& to = wide_chain_.emplace_back(level.width, level.height, level.channels);
+          to.texels.assign(level.texels.begin(), level.texels.end());
+        }
+    }
     // A border is given as a value; where codes are filtered it has to be one.
     for (std::size_t c = 0; c < 4; ++c) {
       scale_[c] = texel_scale(model_, format.of[c]);
@@ -69,6 +77,10 @@ class device_sampler {
   template <class T>
   float finish(T value, int channel) const {
     const float scale = scale_[static_cast<std::size_t>(channel)];
+    if (model_.rounding == intermediate::result && model_.rounded_to != binary32::value) {
+      const double scaled = static_cast<double>(value) * static_cast<double>(scale);
+      return static_cast<float>(round_to(model_.rounded_to, scaled));
+    }
     const auto narrow = static_cast<float>(value);
     return scale == 1.0f ? narrow : narrow * scale;
   }

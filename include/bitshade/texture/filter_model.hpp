@@ -45,6 +45,7 @@ enum class accumulation : std::uint8_t {
 };
 
 /// Where intermediate values are rounded to `rounded_to`, beyond the carrier's own roundings.
+/// `result` is left to whoever asks for the lookup, at its very end: device_sampler.hpp.
 enum class intermediate : std::uint8_t { none, per_product, per_lerp, result };
 
 /// The length that selects the level.
