@@ -8,49 +8,16 @@
 #include "bitshade/interop/rational.hpp"
 #include "bitshade/texture/exact_sampler.hpp"
 #include "bitshade/texture/sampler.hpp"
+#include "support/any_filter.hpp"
 #include "support/catch.hpp"
 #include "support/half_step.hpp"
 #include "support/roundings.hpp"
 
 using namespace bitshade;
+using namespace bitshade::test;
 using q = exact_rational;
 
 namespace {
-
-template <class Enum>
-Enum any_of(int count) {
-  return static_cast<Enum>(*rc::gen::inRange(0, count));
-}
-
-int any_bits() {
-  static constexpr int bits[] = {0, 4, 6, 8};
-  return bits[*rc::gen::inRange(0, 4)];
-}
-
-/// Grids of 4, 6, 8 bits or none, every snap, every clamp and wrap, and the three orders of
-/// numbers.
-filter_model any_knobs() {
-  filter_model m;
-  m.clamp = any_of<clamp_rule>(5);
-  m.repeat = any_of<repeat_rule>(3);
-  m.grid_bits = any_bits();
-  m.grid_snap = any_of<snap>(3);
-  m.snap_before_centring = *rc::gen::arbitrary<bool>();
-  m.weight_bits = any_bits();
-  m.weight_snap = any_of<snap>(3);
-  m.order = any_of<accumulation>(3);
-  m.mip_bits = any_bits();
-  return m;
-}
-
-sampler_state any_state() {
-  sampler_state state;
-  state.u = any_of<address>(4);
-  state.v = any_of<address>(4);
-  state.linear = *rc::gen::inRange(0, 4) != 0;
-  state.border = {0.25, 0.25, 0.25, 0.25};
-  return state;
-}
 
 float any_coordinate() {
   return static_cast<float>(*rc::gen::inRange(-(1 << 12), 1 << 13)) * 0x1p-12f;
@@ -66,13 +33,6 @@ bool loses_negative_products(const filter_model& m) {
 image<double> any_texels() {
   image<double> out(1 << *rc::gen::inRange(0, 4), 1 << *rc::gen::inRange(0, 4));
   for (double& t : out.texels) t = *rc::gen::inRange(0, 65536) * 0x1p-16;
-  return out;
-}
-
-image<q> exactly(const image<double>& in) {
-  image<q> out(in.width, in.height);
-  std::transform(in.texels.begin(), in.texels.end(), out.texels.begin(),
-                 [](double x) { return q(x); });
   return out;
 }
 
