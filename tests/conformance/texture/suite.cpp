@@ -1,4 +1,5 @@
 // Every preset before both judges of the Khronos conformance suite.
+#include <cmath>
 #include <random>
 
 #include "bitshade/interop/rational.hpp"
@@ -18,15 +19,20 @@ struct verdict {
 
 constexpr int lookups = 400;
 
-verdict judge(const filter_model& model, int bits) {
-  const texel_format format = uniform_format(unorm_encoding(bits), bits == 8 ? 1 : 2);
+verdict judge(const filter_model& model, const encoding& e) {
+  const texel_format format = uniform_format(e, e == unorm8::value ? 1 : 2);
   std::mt19937 random(11);
   coded_image codes(16, 16, format.channels);
-  for (auto& t : codes.texels) t = random() & low_bits(bits);
+  for (auto& t : codes.texels)
+    t = is_norm(e) ? random() & low_bits(e.width)
+                   : encode(e, static_cast<double>(random() >> 8) * 0x1p-24);
   const image<double> truth = load_image<double>(preset_detail::exact(), format, codes);
   const device_sampler device(model, format, {codes}, {});
   const exact_sampler<exact_rational> exact(format, {codes}, {});
-  const double step = 1.0 / static_cast<double>(low_bits(bits));
+  // The largest step in [0, 1], and the bits that the suite takes for results.
+  const int bits = is_norm(e) ? e.width : e.fraction_bits;
+  const double step =
+      is_norm(e) ? 1.0 / static_cast<double>(low_bits(bits)) : std::ldexp(1.0, -bits - 1);
   verdict result;
   for (int i = 0; i < lookups; ++i) {
     float u = static_cast<float>(random() >> 8) * 0x1p-24f;
@@ -56,17 +62,18 @@ verdict judge(const filter_model& model, int bits) {
 
 TEST_CASE("the range search accepts every preset") {
   for (const filter_model& model : presets) {
-    const verdict v = judge(model, model.order == accumulation::lerp_codes ? 8 : 16);
+    const verdict v =
+        judge(model, model.order == accumulation::lerp_codes ? unorm8::value : unorm16::value);
     CAPTURE(std::string(model.name));
     CHECK(v.search == 0);
   }
 }
 
 TEST_CASE("the strict model: 8-bit floor passes, 8-bit nearest fails at carries alone") {
-  const verdict floor8 = judge(*find_preset("vulkan-strict"), 16);
+  const verdict floor8 = judge(*find_preset("vulkan-strict"), unorm16::value);
   CHECK(floor8.strict8 == 0);
   CHECK(floor8.carries >= lookups / 8);
-  const verdict nearest8 = judge(*find_preset("d3d11"), 16);
+  const verdict nearest8 = judge(*find_preset("d3d11"), unorm16::value);
   CHECK(nearest8.strict8_without_carry == 0);
   CHECK(nearest8.strict8 > 0);
   CHECK(nearest8.strict8 <= nearest8.carries);
@@ -74,7 +81,7 @@ TEST_CASE("the strict model: 8-bit floor passes, 8-bit nearest fails at carries 
 
 TEST_CASE("the strict model: full weights pass on a grid as fine as the format, not on 8 bits") {
   for (const char* name : {"exact", "llvmpipe", "softpipe", "swiftshader"}) {
-    const verdict v = judge(*find_preset(name), 16);
+    const verdict v = judge(*find_preset(name), unorm16::value);
     CAPTURE(name);
     CHECK(v.strict16 == 0);
     CHECK(v.strict8 > lookups / 2);  // a device so precise has to declare its precision
@@ -83,18 +90,31 @@ TEST_CASE("the strict model: full weights pass on a grid as fine as the format, 
 
 TEST_CASE("the strict model on the presets left: cuda's 1.8 weights and llvmpipe's 8-bit path") {
   // Weights rounded to nearest may reach 1, the same value as a carry.
-  const verdict cuda = judge(*find_preset("cuda"), 16);
+  const verdict cuda = judge(*find_preset("cuda"), unorm16::value);
   CHECK(cuda.strict8_without_carry == 0);
   CHECK(cuda.strict8 <= cuda.carries);
-  const verdict r8 = judge(*find_preset("llvmpipe-r8"), 8);
+  const verdict r8 = judge(*find_preset("llvmpipe-r8"), unorm8::value);
   CAPTURE(r8.strict8);
   CHECK(r8.strict8_without_carry == 0);
+}
+
+TEST_CASE("both models on half textures: as on unorm16, in every preset that takes them") {
+  for (const filter_model& model : presets) {
+    if (model.order == accumulation::lerp_codes) continue;
+    const verdict v = judge(model, binary16::value);
+    CAPTURE(std::string(model.name));
+    CHECK(v.search == 0);
+    const bool coarse = model.grid_bits > 0 || model.weight_bits > 0;
+    CHECK(v.strict8_without_carry <= (coarse ? 0 : lookups));
+    if (model.name == "vulkan-strict") CHECK(v.strict8 == 0);
+    if (!coarse) CHECK(v.strict16 == 0);
+  }
 }
 
 TEST_CASE("both judges refuse a filter that is wrong") {
   filter_model coarse = *find_preset("vulkan-strict");
   coarse.grid_bits = 3;
-  const verdict v = judge(coarse, 16);
+  const verdict v = judge(coarse, unorm16::value);
   CHECK(v.search > 0);
   CHECK(v.strict8 > 0);
 }
