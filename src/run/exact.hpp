@@ -210,35 +210,16 @@ class exact_engine {
   /// Adds one lookup at (u, v) in steps of 2^-24, its weight `share` in units of 2^-(lookup - 48).
   void add_lookup(sums& total, const level_map& level, std::int64_t u, std::int64_t v,
                   std::uint64_t share) const {
-    constexpr std::int64_t one = std::int64_t{1} << 24;
-    const int width = level.first.width, height = level.first.height;
-    std::int64_t x = u * width, y = v * height, fx = 0, fy = 0;
-    if (look_.filter == texel_filter::bilinear) {
-      x -= one / 2;
-      y -= one / 2;
-      fx = x & (one - 1);
-      fy = y & (one - 1);
-    }
-    const auto column = [&](std::int64_t i) {
-      return wrap(static_cast<int>((x >> 24) + i), width, map_address);
-    };
-    const auto row = [&](std::int64_t j) {
-      return wrap(static_cast<int>((y >> 24) + j), height, map_address);
-    };
-    const auto add = [&](int i, int j, std::int64_t weight) {
-      if (weight == 0) return;
-      constexpr std::size_t limbs1 = limbs_for(S + 1 + scale + probe_bits);
-      constexpr std::size_t limbs2 = limbs_for(2 * S + 1 + scale + probe_bits);
-      const auto w = wide<1>(static_cast<std::uint64_t>(weight) * share);
-      const auto& m1 = level.first.at(i, j);
-      const auto& m2 = level.second.at(i, j);
-      total.first += widened<light_limbs>(narrowed<limbs1>(widened<limbs1>(m1) * w));
-      total.second += widened<light_limbs>(narrowed<limbs2>(widened<limbs2>(m2) * w));
-    };
-    add(column(0), row(0), (one - fx) * (one - fy));
-    add(column(1), row(0), fx * (one - fy));
-    add(column(0), row(1), (one - fx) * fy);
-    add(column(1), row(1), fx * fy);
+    constexpr std::size_t limbs1 = limbs_for(S + 1 + scale + probe_bits);
+    constexpr std::size_t limbs2 = limbs_for(2 * S + 1 + scale + probe_bits);
+    for_fetched(look_, u, v, level.first.width, level.first.height,
+                [&](int x, int y, std::uint64_t part) {
+                  const auto w = wide<1>(part * share);
+                  const auto& m1 = level.first.at(x, y);
+                  const auto& m2 = level.second.at(x, y);
+                  total.first += widened<light_limbs>(narrowed<limbs1>(widened<limbs1>(m1) * w));
+                  total.second += widened<light_limbs>(narrowed<limbs2>(widened<limbs2>(m2) * w));
+                });
   }
 
   light light_at(const receiver& r) const {
