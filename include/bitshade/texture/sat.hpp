@@ -212,20 +212,25 @@ T box_mean(const split_summed_area<T>& sat, int x0, int y0, int x1, int y1, int 
          count;
 }
 
-/// Largest box, in texels, whose sum of `bits`-bit codes an unsigned W keeps modulo its range.
+/// Largest box, in texels, whose sum of `bits`-bit codes an unsigned W keeps modulo its range: none
+/// where a code alone is wider than W.
 template <class W>
 constexpr std::uint64_t modular_box_texels(int bits) {
   static_assert(std::is_unsigned_v<W>);
   constexpr int width = std::numeric_limits<W>::digits;
-  return bits >= width ? 1 : std::uint64_t{1} << (width - bits);
+  if (bits > width) return 0;
+  return width - bits >= 64 ? ~std::uint64_t{0} : std::uint64_t{1} << (width - bits);
 }
 
 /// The table of unsigned codes in W, wrapping: what uint32 SATs on devices do.
 ///
 /// Error    box sums of at most modular_box_texels<W>(bits) texels are exact.
-/// Failure  std::invalid_argument where a code does not fit `bits`.
+/// Failure  std::invalid_argument where a code does not fit `bits`, or `bits` do not fit W.
 template <class W>
 summed_area<W> make_modular_sat(const image<std::uint64_t>& codes, int bits) {
+  if (bits < 0 || bits > std::numeric_limits<W>::digits)
+    throw std::invalid_argument(
+        "a modular summed-area table cannot hold codes wider than its sums");
   image<W> in(codes.width, codes.height, codes.channels);
   for (std::size_t i = 0; i < in.texels.size(); ++i) {
     if (bits < 64 && (codes.texels[i] >> bits) != 0)

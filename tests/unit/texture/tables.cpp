@@ -124,6 +124,12 @@ TEST_CASE("modular tables wrap and stay exact; what does not fit is refused") {
     }
   CHECK(wrapped);
   CHECK_THROWS(make_modular_sat<std::uint32_t>(codes, 16));
+  CHECK_THROWS(make_modular_sat<std::uint32_t>(codes, 33));
+  CHECK_THROWS(make_modular_sat<std::uint32_t>(codes, -1));
+  CHECK(modular_box_texels<std::uint32_t>(32) == 1);
+  CHECK(modular_box_texels<std::uint32_t>(33) == 0);
+  CHECK(modular_box_texels<std::uint64_t>(64) == 1);
+  CHECK(modular_box_texels<std::uint64_t>(0) == ~std::uint64_t{0});
   CHECK_THROWS(require_sat_fits(4096, 4096, 1, 65504));
   CHECK_NOTHROW(require_sat_fits(128, 128, 1, 65504));
 }
