@@ -2,7 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -11,6 +14,39 @@
 #include "bitshade/texture/storage.hpp"
 
 namespace bitshade {
+
+namespace mip_detail {
+
+/// The number next to `near` that rounding to odd gives for a value above (1) or below (-1) it.
+inline double to_odd(double near, int side) {
+  auto bits = std::bit_cast<std::uint64_t>(near);
+  if (side != 0 && (bits & 1) == 0) bits += (side > 0) == (near > 0) ? 1 : std::uint64_t(-1);
+  return std::bit_cast<double>(bits);
+}
+
+/// The weighted sum over the denominator, rounded to odd; nothing where binary64 rounds on the way.
+///
+/// Shapes   each(use): calls use(weight, texel) for every texel.
+template <class Each>
+std::optional<double> mean_to_odd(Each each, double denominator) {
+  using certified_detail::two;
+  double sum = 0;
+  bool exact = true;
+  each([&](std::int64_t w, double t) {
+    const two product = certified_detail::two_product(static_cast<double>(w), t);
+    const two both = certified_detail::two_sum(sum, product.high);
+    exact = exact && product.low == 0 && both.low == 0;
+    sum = both.high;
+  });
+  // A quotient's remainder is exact, unless it underflows.
+  if (!exact || (sum != 0 && std::fabs(sum) < 0x1p-900)) return std::nullopt;
+  const double quotient = sum / denominator;
+  const two back = certified_detail::two_product(quotient, denominator);
+  const double rest = (sum - back.high) - back.low;
+  return to_odd(quotient, rest > 0 ? 1 : rest < 0 ? -1 : 0);
+}
+
+}  // namespace mip_detail
 
 /// Most significant bits of a code that encode_exact rounds once: two fewer than binary64's.
 inline constexpr int exact_mip_bits = 51;
@@ -27,13 +63,8 @@ std::uint64_t encode_exact(const encoding& e, const T& x) {
   const T scaled =
       norm ? x * static_cast<T>(static_cast<double>((std::uint64_t{1} << digits) - 1)) : x;
   const double nearest = certified_detail::nearest_of<double, T>(scaled);
-  double odd = nearest;
-  if (!(static_cast<T>(nearest) == scaled)) {
-    auto bits = std::bit_cast<std::uint64_t>(nearest);
-    const bool above = scaled < static_cast<T>(nearest);
-    if ((bits & 1) == 0) bits += above == (nearest > 0) ? std::uint64_t(-1) : 1;
-    odd = std::bit_cast<double>(bits);
-  }
+  const T back = static_cast<T>(nearest);
+  const double odd = mip_detail::to_odd(nearest, back < scaled ? 1 : scaled < back ? -1 : 0);
   if (!norm) return encode(e, odd);
   const auto most = static_cast<double>((std::uint64_t{1} << digits) - 1);
   const double limited = std::clamp(odd, e.kind == family::snorm ? -most : 0.0, most);
@@ -42,7 +73,8 @@ std::uint64_t encode_exact(const encoding& e, const T& x) {
 
 /// The chain of a stored image: each level the exact filtered value of the level below, stored.
 ///
-/// Shapes   T: exact<Q>; means of norms are taken in 128-bit integers instead.
+/// Shapes   T: exact<Q>, for floats whose mean binary64 cannot hold; means of norms are taken in
+///          128-bit integers.
 /// Error    one rounding to nearest even a level.
 /// Failure  std::invalid_argument for codes wider than exact_mip_bits. Infinite or NaN texels give
 ///          what binary64 makes of their mean.
@@ -91,6 +123,10 @@ std::vector<coded_image> exact_mip_chain(const texel_format& format, coded_image
             const auto code = static_cast<std::uint64_t>(whole);
             next.at(x, y, c) = (negative ? ~code + 1 : code) & low_bits(e.width);
           } else {
+            if (const auto odd = mip_detail::mean_to_odd(each, static_cast<double>(denominator))) {
+              next.at(x, y, c) = encode(e, *odd);
+              continue;
+            }
             double plain = 0;
             bool finite = true;
             each([&](std::int64_t w, double t) {
