@@ -199,8 +199,21 @@ class exact_sampler {
              certified_counts* counts) const {
     const level_blend blend = levels(lambda);
     const auto& near = chain_[static_cast<std::size_t>(blend.near)];
+    const bool alone = blend.fraction == 0 && probes.offsets.size() == 1;
+    if (!state_.linear && alone) {
+      const auto c = static_cast<std::size_t>(channel);
+      if (certified_detail::border_is_exact(border(channel), divisor_[c])) {
+        // Codes and divisors have 24 bits at most: rounded to binary64 first, their quotient stays
+        // the nearest binary32. A zero has no sign, as no rational has.
+        const double code =
+            level_value<double>(blend.near, static_cast<double>(within_period(u, state_.u)),
+                                static_cast<double>(within_period(v, state_.v)), channel);
+        if (counts) ++counts->fast;
+        return static_cast<R>(code / divisor_[c] + 0.0);
+      }
+    }
     if (state_.linear && state_.u == state_.v) {
-      if (blend.fraction == 0 && probes.offsets.size() == 1)
+      if (alone)
         return bilinear_certified<R, T>({&near, divisor_[static_cast<std::size_t>(channel)]}, u, v,
                                         state_.u, channel, border(channel), counts);
       if constexpr (std::is_same_v<R, float>) {

@@ -173,3 +173,43 @@ TEST_CASE("exact chains of floats: the fast way and rationals agree, whatever th
             }
       }
 }
+
+TEST_CASE("exact nearest lookups of one texel need no rationals and give their bits") {
+  std::mt19937 random(23);
+  certified_counts counts;
+  for (const encoding& e : {unorm_encoding(8), unorm_encoding(24), snorm_encoding(16),
+                            binary16::value, binary32::value}) {
+    const texel_format format = uniform_format(e, 1);
+    std::vector<coded_image> chain;
+    for (int size = 7; size > 0; size /= 2) {
+      coded_image level(size, size, 1);
+      for (auto& t : level.texels)
+        t = random() % 8 == 0 ? 0x8000u >> (16 - std::min(16, e.width))
+                              : random() & low_bits(e.width);
+      chain.push_back(std::move(level));
+    }
+    for (const address mode : modes) {
+      sampler_state state;
+      state.u = state.v = mode;
+      state.linear = false;
+      state.mips = mip_selection::nearest;
+      state.border = {-0.0, 0, 0, 0};
+      const sampler exact(format, chain, state);
+      for (int i = 0; i < 200; ++i) {
+        const auto draw = [&] { return static_cast<float>(random() % 64) / 28 - 0.5f; };
+        const float u = draw(), v = draw();
+        const double lambda = static_cast<double>(random() % 5) / 2;
+        const probe_set one{0, {{0, 0}}};
+        const auto same = [](auto a, auto b) {
+          return std::isnan(a) ? std::isnan(b) : a == b && std::signbit(a) == std::signbit(b);
+        };
+        CAPTURE(i, static_cast<int>(mode), u, v, lambda);
+        REQUIRE(same(exact.lod<float>(u, v, lambda, 0, &counts),
+                     exact.rational<float>(one, u, v, lambda, 0)));
+        REQUIRE(same(exact.lod<double>(u, v, lambda, 0, &counts),
+                     exact.rational<double>(one, u, v, lambda, 0)));
+      }
+    }
+  }
+  CHECK(counts.rational == 0);
+}
