@@ -129,6 +129,7 @@ namespace {
 struct reader {
   png_structp png = nullptr;
   png_infop info = nullptr;
+  std::size_t packed_row = 0;  ///< bytes of a row as the file holds it, before any widening
   ~reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
@@ -143,6 +144,7 @@ bool read_header(reader& r, source& in, message& error) {
   png_set_chunk_malloc_max(r.png, 8 << 20);  // text chunks are of no use here
   png_set_crc_action(r.png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
   png_read_info(r.png, r.info);
+  r.packed_row = png_get_rowbytes(r.png, r.info);
   png_set_expand(r.png);  // palettes to RGB, 1, 2 and 4 bits to 8
   png_set_interlace_handling(r.png);
   png_read_update_info(r.png, r.info);
@@ -175,8 +177,8 @@ png_contents decode_png(std::span<const std::uint8_t> bytes, const std::string& 
   const int bits = png_get_bit_depth(r.png, r.info);
   const std::size_t row_bytes = png_get_rowbytes(r.png, r.info);
   // Deflate cannot pack better than 1032:1, so a header that promises more lies; refuse it before
-  // the memory is taken. (Palettes and packed bits grow at most 32-fold on top.)
-  if (row_bytes * static_cast<std::size_t>(height) / 1032 / 32 > bytes.size()) {
+  // the memory is taken.
+  if (r.packed_row * static_cast<std::size_t>(height) / 1032 > bytes.size()) {
     throw failure("cannot read " + name + ": " + std::to_string(width) + " x " +
                   std::to_string(height) + " pixels cannot be in " + std::to_string(bytes.size()) +
                   " bytes; write the PNG again");

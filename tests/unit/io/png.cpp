@@ -41,8 +41,19 @@ TEST_CASE("a PNG is written as a file") {
 }
 
 TEST_CASE("a PNG header that promises more than its bytes can hold is refused before allocating") {
-  auto bytes = encode_png(image<std::uint16_t>(4, 4));
+  auto bytes = encode_png(image<std::uint16_t>(4, 4, 4));
   bytes[18] = 0xC3;  // width 4 -> 0xC304 by 0xC304; the checksum is wrong now, too
   bytes[22] = 0xC3;
   CHECK_THROWS_AS(decode_png(bytes, "liar"), failure);
+  std::uint32_t sum = ~std::uint32_t{0};  // of the chunk's name and data: CRC-32, made right again
+  for (std::size_t i = 12; i < 29; ++i) {
+    sum ^= bytes[i];
+    for (int k = 0; k < 8; ++k) sum = sum >> 1 ^ ((sum & 1) != 0 ? 0xEDB88320u : 0);
+  }
+  for (std::size_t i = 0; i < 4; ++i)
+    bytes[29 + i] = static_cast<std::uint8_t>(~sum >> (24 - 8 * i));
+  CHECK_THROWS_WITH(decode_png(bytes, "liar"), Catch::Contains("pixels cannot be in"));
+  // 20 gigabytes take 19 million bytes at least, packed as well as deflate can.
+  bytes.resize(2'000'000);
+  CHECK_THROWS_WITH(decode_png(bytes, "liar"), Catch::Contains("pixels cannot be in"));
 }
