@@ -93,6 +93,7 @@ struct lanes32 : words {
   static m le(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   /// Not a <= b: greater, or NaN.
   static m nle(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NLE_UQ); }
+  static m eq_or_nan(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_UQ); }
   static m nan(f a) { return _mm512_cmp_ps_mask(a, a, _CMP_UNORD_Q); }
   static m igt(i a, i b) { return _mm512_cmpgt_epi32_mask(a, b); }
   static m ugt(i a, i b) { return _mm512_cmpgt_epu32_mask(a, b); }

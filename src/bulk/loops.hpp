@@ -30,12 +30,13 @@ template <class V, class In, class Out, class Step>
   for (std::size_t k = 0; j + k < n; ++k) out[j + k] = last_out[k];
 }
 
-/// Runs put(out, step(in, random bits, undecided)) over blocks of 32 numbers whose counters 32 divides; the first and the
-/// last may be shorter and go through a buffer. Where a step cannot decide, decide(in, out, first) does its vector and
-/// the few beside it.
-template <class V, class In, class Out, class Step, class Put, class Decide>
+/// Runs step(in, random bits, undecided, results) over groups of vectors and put(out, result) over each, in blocks of 32
+/// numbers whose counters 32 divides; the first and the last may be shorter and go through a buffer. Where a step cannot
+/// decide, decide(in, out, first) does its vector and the few beside it.
+template <class V, class In, class Out, class Result, class Step, class Put, class Decide>
 [[gnu::always_inline]] inline void over_random(const plan& p, const void* source, void* target, std::size_t n,
                                                Step step, Put put, Decide decide) {
+  using m = typename V::m;
   constexpr std::size_t block = random_block<V>::numbers, width = V::width, vectors = block / width;
   constexpr std::size_t group = vectors < 4 ? vectors : 4;  // asked together whether all are decided
   const In* in = static_cast<const In*>(source);
@@ -47,15 +48,11 @@ template <class V, class In, class Out, class Step, class Put, class Decide>
   const auto whole = [&](const In* a, Out* b, std::size_t first) __attribute__((always_inline)) {
 #pragma GCC unroll 2
     for (std::size_t g = 0; g < vectors; g += group) {
-      using result = decltype(step(a, random.bits(0), *static_cast<typename V::m*>(nullptr)));
-      result r[group];
-      typename V::m undecided{};
+      Result r[group];
+      m unclear[group]{}, undecided{};
+      step(a + g * width, [&](std::size_t k) __attribute__((always_inline)) { return random.bits(g + k); }, unclear, r);
 #pragma GCC unroll 4
-      for (std::size_t k = 0; k < group; ++k) {
-        typename V::m one{};
-        r[k] = step(a + (g + k) * width, random.bits(g + k), one);
-        undecided = static_cast<typename V::m>(undecided | one);
-      }
+      for (std::size_t k = 0; k < group; ++k) undecided = static_cast<m>(undecided | unclear[k]);
       if (V::any(undecided)) [[unlikely]] {
         for (std::size_t k = g; k < g + group; ++k) decide(a + k * width, b + k * width, first + k * width);
         continue;
@@ -69,16 +66,16 @@ template <class V, class In, class Out, class Step, class Put, class Decide>
   Out some_out[block];
   std::size_t skip = p.counter % block;
   for (std::size_t j = 0; j < n; skip = 0) {
-    const std::size_t m = n - j < block - skip ? n - j : block - skip;
-    const bool part = m < block;
+    const std::size_t count = n - j < block - skip ? n - j : block - skip;
+    const bool part = count < block;
     if (part) [[unlikely]] {
-      for (std::size_t k = 0; k < m; ++k) some_in[skip + k] = in[j + k];
+      for (std::size_t k = 0; k < count; ++k) some_in[skip + k] = in[j + k];
     }
     whole(part ? some_in : in + j, part ? some_out : out + j, j - skip);
     if (part) [[unlikely]] {
-      for (std::size_t k = 0; k < m; ++k) out[j + k] = some_out[skip + k];
+      for (std::size_t k = 0; k < count; ++k) out[j + k] = some_out[skip + k];
     }
-    j += m;
+    j += count;
   }
 }
 
@@ -87,7 +84,12 @@ template <class V, rounding D, class In, class Out, class Step, class Put>
 [[gnu::always_inline]] inline void in_direction(const plan& p, const void* in, void* out, std::size_t n, Step step,
                                                 Put put) {
   if constexpr (D == rounding::stochastic) {
-    over_random<V, In, Out>(p, in, out, n, step, put, [&](const In* a, Out* b, std::size_t first) {
+    using result = decltype(step(static_cast<const In*>(in), V::all_bits(0), *static_cast<typename V::m*>(nullptr)));
+    const auto each = [&]<std::size_t Group>(const In* a, auto random, typename V::m(&undecided)[Group], result(&r)[Group]) __attribute__((always_inline)) {
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < Group; ++k) r[k] = step(a + k * V::width, random(k), undecided[k]);
+    };
+    over_random<V, In, Out, result>(p, in, out, n, each, put, [&](const In* a, Out* b, std::size_t first) {
       p.define(p, a, b, V::width, first);
     });
   } else {
@@ -143,15 +145,23 @@ void round_norm_in(const plan& p, const void* in, void* out, std::size_t n) {
   over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step(V::load(a))); });
 }
 
-/// Stochastically, with more than 23 random bits.
+/// Stochastically, with more than 23 random bits. Where a group is undecided, each of its vectors has another try without
+/// NaNs before it goes to the definition.
 template <class V, bool Signed>
 void round_norm_drawn(const plan& p, const void* in, void* out, std::size_t n) {
   using f = typename V::f;
+  using m = typename V::m;
   const drawn_norm_value<V, Signed> step(p);
-  const auto one = [&](const float* a, typename V::i random, typename V::m& undecided) {
-    return step(V::load(a), random, undecided);
+  const auto put = [](float* b, f v) { V::store(b, v); };
+  const auto decide = [&](const float* a, float* b, std::size_t first) { p.define(p, a, b, V::width, first); };
+  const auto group = [&]<std::size_t Group>(const float* a, auto random, m(&undecided)[Group], f(&r)[Group])
+      __attribute__((always_inline)) {
+    f x[Group];
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < Group; ++k) x[k] = V::load(a + k * V::width);
+    step(x, random, undecided, r);
   };
-  in_direction<V, rounding::stochastic, float, float>(p, in, out, n, one, [](float* b, f v) { V::store(b, v); });
+  over_random<V, float, float, f>(p, in, out, n, group, put, decide);
 }
 
 /// Stochastically, with at most 23 random bits, to codes that are still numbers; norm_quotients, to nearest, makes values of

@@ -75,34 +75,56 @@ struct norm_value : norm_range<V, Signed> {
   }
 };
 
-/// Stochastic; the processor must round to nearest. n is the integer nearest to |x| scale, d the rest, from -1/2 to 1/2, and
-/// R, from 0 to 1, the first 23 random bits: the code is n + floor(d + R), which is the integer nearest to n + h with
-/// h = d + R - 1/2. Rounding moves h by at most 2^-24; only next to a tie, |h| = 1/2, can that matter, or can the random bits
-/// to come, whose part is below 2^-23. There h h + 4 is rounded to 4 + 1/4, as `undecided` tells; elsewhere it is once in 2^21.
+/// Stochastic; the processor must round to nearest. n is the integer nearest to x scale, d the rest, from -1/2 to 1/2, and
+/// R, from 0 to 1, the first 32 random bits, of x < 0 their complement, since these are drawn for |x|: the code is
+/// n + floor(d + R), which is the integer nearest to n + h with h = d + R - 1/2. Rounding moves R by at most 2^-26 and d and
+/// h by 2^-26 and 2^-25; the bits that follow add at most 2^-24 (where fewer than 32 count, they are among these). Only next
+/// to a tie, |h| = 1/2, can that matter, and there h h + 4 is rounded to 4 + 1/4, as `undecided` tells; elsewhere it is
+/// once in 2^21. A NaN of a signed format is undecided as well: it stays one up to h.
+///
+/// Goes through a group of vectors operation by operation, since each waits for the one before.
 template <class V, bool Signed>
-struct drawn_norm_value : norm_range<V, Signed> {
-  using range = norm_range<V, Signed>;
+struct drawn_norm_value {
   using f = typename V::f;
   using i = typename V::i;
+  using m = typename V::m;
 
   norm_step<V, rounding::nearest_even> step;
-  const i one = V::bits(V::all(1));
-  const f magic = V::all(Signed ? 0x1.8p23f : 0x1p23f + 1), half_less = V::all(0x1p23f - 0.5f), three_halves = V::all(1.5f);
-  const f four = V::all(4), tie = V::all(4.25f);
+  /// Sums with h below 0 must not leave the binade whose unit is 1.
+  const f magic = V::all(Signed ? 0x1.8p23f : 0x1p23f + 1);
+  const f low, high, unit = V::all(0x1p-32f), four = V::all(4), tie = V::all(4.25f);
+  const i half = V::all_bits(0x80000000u);
 
-  [[gnu::always_inline]] explicit drawn_norm_value(const plan& p) : range(p), step(p) {}
+  [[gnu::always_inline]] explicit drawn_norm_value(const plan& p)
+      : step(p), low(V::all(static_cast<float>(p.low))), high(V::all(static_cast<float>(p.high))) {}
 
-  [[gnu::always_inline]] f operator()(f x, i random, typename V::m& undecided) const {
-    const f y = range::clamp(x), drawn = V::value(V::or_(V::leading(random), one)), sum = V::fma(y, step.scale, magic);
-    f h;
-    if constexpr (Signed) {
-      const i away = V::xor_(V::bits(V::sub(drawn, three_halves)), V::and_(V::bits(y), range::sign));
-      h = V::add(V::fms(y, step.scale, V::sub(sum, magic)), V::value(away));
-    } else {
-      h = V::add(V::fms(y, step.scale, V::sub(sum, half_less)), drawn);
-    }
-    undecided = V::eq(V::fma(h, h, four), tie);
-    return step.to_value(V::sub(V::add(sum, h), magic));
+  template <std::size_t Group, class Random>
+  [[gnu::always_inline]] void operator()(const f (&x)[Group], Random random, m (&undecided)[Group], f (&r)[Group]) const {
+    f y[Group], sum[Group], h[Group];
+    const auto each = [](auto one) __attribute__((always_inline)) {
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < Group; ++k) one(k);
+    };
+    each([&](auto k) { y[k] = clamp(x[k]); });
+    each([&](auto k) { sum[k] = V::fma(y[k], step.scale, magic); });
+    each([&](auto k) { h[k] = V::fms(y[k], step.scale, V::sub(sum[k], magic)); });
+    each([&](auto k) {
+      const f drawn = V::to_float(V::xor_(of_size(x[k], random(k)), half));  // 2^32 (R - 1/2)
+      h[k] = V::fma(drawn, unit, h[k]);
+    });
+    each([&](auto k) { undecided[k] = V::eq_or_nan(V::fma(h[k], h[k], four), tie); });
+    each([&](auto k) { r[k] = V::sub(V::add(sum[k], h[k]), magic); });
+    each([&](auto k) { r[k] = step.to_value(r[k]); });
+  }
+
+ private:
+  [[gnu::always_inline]] f clamp(f x) const {
+    if constexpr (Signed) return V::min(high, V::max(low, x));
+    return V::value(V::imin(V::bits(V::max(x, low)), V::bits(high)));
+  }
+  [[gnu::always_inline]] static i of_size(f x, i random) {
+    if constexpr (Signed) return V::xor_(random, V::spread_sign(V::bits(x)));
+    return random;
   }
 };
 
