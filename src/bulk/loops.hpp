@@ -66,13 +66,16 @@ template <class V, class In, class Out, class Result, class Step, class Put, cla
   Out some_out[block];
   std::size_t skip = p.counter % block;
   for (std::size_t j = 0; j < n; skip = 0) {
-    const std::size_t count = n - j < block - skip ? n - j : block - skip;
-    const bool part = count < block;
-    if (part) [[unlikely]] {
+    const bool part = skip > 0 || n - j < block;
+    const std::size_t blocks = part ? 1 : (n - j) / block;
+    const std::size_t count = !part ? blocks * block : n - j < block - skip ? n - j : block - skip;
+    const In* a = part ? some_in : in + j;
+    Out* b = part ? some_out : out + j;
+    if (part) {
       for (std::size_t k = 0; k < count; ++k) some_in[skip + k] = in[j + k];
     }
-    whole(part ? some_in : in + j, part ? some_out : out + j, j - skip);
-    if (part) [[unlikely]] {
+    for (std::size_t k = 0; k < blocks * block; k += block) whole(a + k, b + k, j - skip + k);
+    if (part) {
       for (std::size_t k = 0; k < count; ++k) out[j + k] = some_out[skip + k];
     }
     j += count;
