@@ -148,15 +148,32 @@ void round_norm_in(const plan& p, const void* in, void* out, std::size_t n) {
   over<V, float, float>(in, out, n, [&](const float* a, float* b) { V::store(b, step(V::load(a))); });
 }
 
-/// Stochastically, with more than 23 random bits. Where a group is undecided, each of its vectors has another try without
-/// NaNs before it goes to the definition.
+/// One vector that was undecided, once more without its NaNs before it goes to the definition. It shares nothing with the
+/// loop that seldom calls it: that keeps its registers.
+template <class V, bool Signed>
+[[gnu::noinline, gnu::cold]] void round_norm_numbers(const plan& p, const float* a, float* b, std::size_t first) {
+  using f = typename V::f;
+  using block = random_block<V>;
+  const std::size_t at = first + p.counter % block::numbers;  // from the beginning of the first block on
+  block random(p, at / block::numbers);
+  random.draw();
+  const drawn_norm_value<V, Signed> step(p);
+  const f x = V::load(a), number[1] = {V::value(V::keep(V::eq(x, x), V::bits(x)))};
+  f r[1];
+  typename V::m undecided[1];
+  step(number, [&](std::size_t) { return random.bits(at % block::numbers / V::width); }, undecided, r);
+  if (V::any(undecided[0])) p.define(p, a, b, V::width, first);
+  else V::store(b, r[0]);
+}
+
+/// Stochastically, with more than 23 random bits.
 template <class V, bool Signed>
 void round_norm_drawn(const plan& p, const void* in, void* out, std::size_t n) {
   using f = typename V::f;
   using m = typename V::m;
   const drawn_norm_value<V, Signed> step(p);
   const auto put = [](float* b, f v) { V::store(b, v); };
-  const auto decide = [&](const float* a, float* b, std::size_t first) { p.define(p, a, b, V::width, first); };
+  const auto decide = [&](const float* a, float* b, std::size_t first) { round_norm_numbers<V, Signed>(p, a, b, first); };
   const auto group = [&]<std::size_t Group>(const float* a, auto random, m(&undecided)[Group], f(&r)[Group])
       __attribute__((always_inline)) {
     f x[Group];

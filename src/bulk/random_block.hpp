@@ -19,13 +19,15 @@ class random_block {
   static constexpr std::size_t numbers = 32;
   static constexpr std::size_t parts = 16 / V::width;  ///< vectors in half a block
 
-  [[gnu::always_inline]] explicit random_block(const plan& p)
+  /// Before that block's numbers, counted from the one that holds the plan's counter.
+  [[gnu::always_inline]] explicit random_block(const plan& p, std::size_t block = 0)
       : middle_(V::words(p.random_middle[0], p.random_middle[1])), stride_(both(p.random_weyl * 16)) {
     for (int k = 0; k < 3; ++k) factor_[k] = both(p.random_factors[k]);
     const i weyl = both(p.random_weyl);
     const i start = V::words(p.random_start[0], p.random_start[1]);
     for (std::size_t k = 0; k < parts; ++k) {
-      const i step = V::word_add(V::lane_numbers(), both(p.random_step + static_cast<std::uint32_t>(k * V::width)));
+      const auto place = static_cast<std::uint32_t>(16 * block + k * V::width);
+      const i step = V::word_add(V::lane_numbers(), both(p.random_step + place));
       place_[k] = V::word_add(start, V::word_multiply(step, weyl));
     }
   }
