@@ -86,11 +86,9 @@ struct lanes : bulk_kernels::avx2::lanes32 {
     const f half = _mm256_permute2f128_ps(x, x, Half == 0 ? 0x00 : 0x11);
     return _mm256_permutevar_ps(half, _mm256_set_epi32(3, 3, 2, 2, 1, 1, 0, 0));
   }
-  /// (row * width + column) * channels, of four samples.
-  static void store_places(int* p, __m256d column, __m256d row, int width, int channels) {
-    const __m128i texel = _mm_add_epi32(
-        _mm_mullo_epi32(_mm256_cvttpd_epi32(row), _mm_set1_epi32(width)), _mm256_cvttpd_epi32(column));
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_mullo_epi32(texel, _mm_set1_epi32(channels)));
+  /// Whole numbers of two vectors as integers; what is none, or too large, is negative.
+  static i whole(__m256d low, __m256d high) {
+    return _mm256_set_m128i(_mm256_cvttpd_epi32(high), _mm256_cvttpd_epi32(low));
   }
   template <int Half>
   static __m256d twice(__m256d x) {

@@ -113,13 +113,10 @@ struct lanes : bulk_kernels::avx512::lanes32 {
                                                   9, 9, 8, 8);
     return _mm512_permutexvar_ps(places, x);
   }
-  /// (row * width + column) * channels, of eight samples.
-  static void store_places(int* p, __m512d column, __m512d row, int width, int channels) {
-    const __m256i texel =
-        _mm256_add_epi32(_mm256_mullo_epi32(_mm512_cvttpd_epi32(row), _mm256_set1_epi32(width)),
-                         _mm512_cvttpd_epi32(column));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(p),
-                        _mm256_mullo_epi32(texel, _mm256_set1_epi32(channels)));
+  /// Whole numbers of two vectors as integers; what is none, or too large, is negative.
+  static i whole(__m512d low, __m512d high) {
+    return _mm512_inserti64x4(_mm512_castsi256_si512(_mm512_cvttpd_epi32(low)),
+                              _mm512_cvttpd_epi32(high), 1);
   }
   template <int Half>
   static __m512d twice(__m512d x) {

@@ -23,6 +23,17 @@ struct level_size {
         has_inner(job.width > 1 && job.height > 1) {}
 };
 
+/// Where the upper left texels lie, from their column and line.
+template <class V, int Channels>
+[[gnu::always_inline]] inline void place(const level_size<V>& size, typename V::i column,
+                                         typename V::i line, int* places, bool& inner) {
+  // As unsigned integers, so that what lies before the first texel, and NaN, is beyond the last.
+  inner = size.has_inner && !V::any(V::or_(V::ugt(column, size.last_column),
+                                           V::ugt(line, size.last_line)));
+  const auto texel = V::iadd(V::imul(line, size.stride), column);
+  V::store_ints(places, Channels == 2 ? V::iadd(texel, texel) : texel);
+}
+
 /// Coordinates of a vector of samples in binary32.
 template <class V, int Channels, grid Grid>
 [[gnu::always_inline]] inline void locate(const level_size<V>& size, const float* u, const float* v,
@@ -42,11 +53,7 @@ template <class V, int Channels, grid Grid>
     return first;
   };
   const auto column = axis(u, size.width, at.fx), line = axis(v, size.height, at.fy);
-  // As unsigned integers, so that what lies before the first texel, and NaN, is beyond the last.
-  at.inner = size.has_inner && !V::any(V::or_(V::ugt(column, size.last_column),
-                                              V::ugt(line, size.last_line)));
-  const auto texel = V::iadd(V::imul(line, size.stride), column);
-  V::store_ints(at.place, Channels == 2 ? V::iadd(texel, texel) : texel);
+  place<V, Channels>(size, column, line, at.place, at.inner);
 }
 
 template <class V, blend Order>

@@ -26,15 +26,16 @@ struct sum_of_products {
   /// products does; a norm's number has 53.
   [[gnu::always_inline]] void put(const float* t, std::size_t stride, f fx, f fy, f, float* out,
                                   float*) const {
-    const f one = W::all(1.0), gx = W::sub(one, fx), gy = W::sub(one, fy);
+    // Weights and their products are multiples of 2^-16 up to 1, so that their differences are the products.
+    const f w11 = W::mul(fx, fy), w10 = W::sub(fx, w11), w01 = W::sub(fy, w11);
+    const f w00 = W::sub(W::sub(W::all(1.0), fx), w01);
     const auto at = [&](std::size_t k) { return texel(t + k * stride); };
-    const auto sum = [](f wx, f wy, f x, f so_far) {
-      const f w = W::mul(wx, wy);
+    const auto sum = [](f w, f x, f so_far) {
       if constexpr (Norm) return W::add(so_far, W::mul(w, x));
       return W::fma(w, x, so_far);
     };
-    const f first = W::mul(W::mul(gx, gy), at(0));
-    W::store(out, sum(fx, fy, at(3), sum(gx, fy, at(2), sum(fx, gy, at(1), first))));
+    const f first = W::mul(w00, at(0));
+    W::store(out, sum(w11, at(3), sum(w01, at(2), sum(w10, at(1), first))));
   }
 };
 
@@ -81,6 +82,7 @@ class wide_rows {
   template <class Take>
   void run(Take take) const {
     const sample_job job = job_;  // which storing results leaves as it is
+    const level_size<V> size(job);
     const Operation operation = operation_;
     std::size_t i = 0;
     while (i + V::width <= job.n) {
@@ -88,7 +90,7 @@ class wide_rows {
       const std::size_t left = (job.n - i) / V::width;
       const std::size_t count = left < V::located_ahead ? left : V::located_ahead;
       for (std::size_t k = 0; k < count; ++k) {
-        locate(job, job.u + i + k * V::width, job.v + i + k * V::width, at[k]);
+        locate(job, size, job.u + i + k * V::width, job.v + i + k * V::width, at[k]);
       }
       for (std::size_t k = 0; k < count; ++k, i += V::width) {
         float* out = job.out + i * Channels;
@@ -104,7 +106,7 @@ class wide_rows {
       v[k] = i + k < job.n ? job.v[i + k] : 0.5f;
     }
     spots at;
-    locate(job, u, v, at);
+    locate(job, size, u, v, at);
     vector(job, operation, u, v, at, low, high);
     const std::size_t rest = (job.n - i) * Channels;
     for (std::size_t k = 0; k < rest; ++k) job.out[i * Channels + k] = low[k];
@@ -123,13 +125,12 @@ class wide_rows {
     bool inner;  ///< none lies at an edge
   };
 
-  /// Places and weights of one half of the samples; false where one lies at an edge.
+  /// First column and line, and weights, of one half of the samples.
   template <int Half>
-  [[gnu::always_inline]] static bool locate_half(const sample_job& job, const float* u,
-                                                 const float* v, weights& w, int* place) {
+  [[gnu::always_inline]] static void locate_half(const sample_job& job, const float* u,
+                                                 const float* v, weights& w, f (&first)[2]) {
     constexpr std::size_t at = Half * W::width;
-    bool inner = true;
-    f exact[2], first[2];
+    f exact[2];
     const auto axis = [&](int which, const float* p, int size, double* weight)
                           __attribute__((always_inline)) {
       const f scaled = W::mul(W::load(p), W::all(static_cast<double>(size)));
@@ -137,8 +138,6 @@ class wide_rows {
       first[which] = V::floor(x);
       const f fraction = W::sub(x, first[which]);
       W::store(weight, Operation::weight(fraction));
-      const f last = W::all(static_cast<double>(size - 2));
-      inner &= !W::any(W::nle(first[which], last)) && !W::any(W::nle(W::all(0.0), first[which]));
       if constexpr (Operation::tests_exactness) {
         // The subtraction loses nothing, and the weight lies on the grid of 2^-32.
         const f grid = W::mul(fraction, W::all(0x1p32));
@@ -156,15 +155,15 @@ class wide_rows {
       const auto y = W::select(W::eq(exact[1], zero), none, infinite);
       W::store(w.inexact + at, W::value(W::or_(x, y)));
     }
-    V::store_places(place + at, first[0], first[1], job.width, Channels);
-    return inner;
   }
 
-  [[gnu::always_inline]] static void locate(const sample_job& job, const float* u, const float* v,
-                                            spots& at) {
-    const bool first = locate_half<0>(job, u, v, at.w, at.place),
-               second = locate_half<1>(job, u, v, at.w, at.place);
-    at.inner = first && second;
+  [[gnu::always_inline]] static void locate(const sample_job& job, const level_size<V>& size,
+                                            const float* u, const float* v, spots& at) {
+    f low[2], high[2];
+    locate_half<0>(job, u, v, at.w, low);
+    locate_half<1>(job, u, v, at.w, high);
+    texture_kernels::place<V, Channels>(size, V::whole(low[0], high[0]),
+                                        V::whole(low[1], high[1]), at.place, at.inner);
   }
 
   [[gnu::always_inline]] void vector(const sample_job& job, const Operation& operation,
