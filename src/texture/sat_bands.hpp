@@ -82,7 +82,10 @@ class sat_band {
         // Whole lines, past the caches: so many rows at once would throw each other out of them.
         for (; i < head; i += lanes) partial(sum, above + i, i, head - i < lanes ? head - i : lanes);
         const std::size_t end = head + (job_.n - head) / in_line * in_line;
-        for (i = head; i < end; i += piece) lines(sum, above, i, end - i < piece ? end : i + piece);
+        outgoing out;
+        if constexpr (in_line != lanes) out.fill(out.room, in_ + head);
+        for (i = head; i < end; i += piece) lines(sum, above, i, end - i < piece ? end : i + piece, out);
+        send(out, lanes * piece);
         i = end;
         V::fence();
       } else {
@@ -103,34 +106,57 @@ class sat_band {
     }
   }
 
-  /// Whole lines [begin, end), at most a piece of them. Where a vector is no line they are gathered
-  /// first: among reads of `in`, writes to places that end in the same 12 bits would hold each other
-  /// up, as rows of a power of two do. So the buffer's rows keep half a kilobyte from those of `in`.
+  /// Rows of two pieces where a vector is no line: one is gathered while the lines of the other leave for memory, so that
+  /// neither waits for the other. Among reads of `in`, writes to places that end in the same 12 bits would hold each
+  /// other up, as rows of a power of two do: these rows keep half a kilobyte from those of `in`.
+  struct outgoing {
+    static constexpr std::size_t size = (width + 1) * piece;
+    alignas(64) float room[in_line == lanes ? 1 : 2 * size];
+    float* filled = room;                     ///< rows of the piece being summed
+    const float* full = nullptr;              ///< rows of the one before
+    std::size_t at = 0, lines = 0, sent = 0;  ///< its first value, its lines a row, those sent
+
+    /// What was filled is full; the next piece begins in the other half.
+    void next(const code* in, std::size_t begin, std::size_t values) {
+      full = filled;
+      at = begin, lines = values / in_line, sent = 0;
+      fill(filled < room + size ? room + size : room, in + begin + values);
+    }
+    void fill(float* half, const code* in) {
+      const auto distance = reinterpret_cast<std::uintptr_t>(in) - reinterpret_cast<std::uintptr_t>(half);
+      filled = half + (distance + 512) % 1024 / 64 * in_line;
+    }
+  };
+
+  /// Streams up to `count` lines of the full piece, row by row.
+  [[gnu::always_inline]] void send(outgoing& out, std::size_t count) const {
+    for (; count > 0 && out.sent < out.lines * lanes; --count, ++out.sent) {
+      const std::size_t r = out.sent / out.lines, k = out.sent % out.lines * in_line;
+      float* const to = out_ + row(static_cast<int>(r)) + out.at + k;
+      for (std::size_t i = 0; i < in_line; i += lanes)
+        V::stream(to + i, V::load(out.full + r * piece + k + i));
+    }
+  }
+
+  /// Whole lines [begin, end), at most a piece of them.
   [[gnu::always_inline]] void lines(vector (&sum)[Channels], float* above, std::size_t begin,
-                                    std::size_t end) const {
-    constexpr bool gathers = in_line != lanes;
-    alignas(64) float buffer[gathers ? (width + 1) * piece : 1];
-    const std::size_t shift =
-        (reinterpret_cast<std::uintptr_t>(in_ + begin) - reinterpret_cast<std::uintptr_t>(buffer) +
-         512) % 1024 / 64 * in_line;
-    float* const first = buffer + (gathers ? shift : 0);
+                                    std::size_t end, outgoing& out) const {
     for (std::size_t i = begin; i < end; i += lanes) {
       const auto load = [&](int r) {
         if ((i - begin) % in_line == 0) prefetch(r, i);
         return sums_.load(in_ + row(r) + i);
       };
       block(sum, above + i, width, load, [&](int r, f x) {
-        if constexpr (gathers)
-          V::store(first + static_cast<std::size_t>(r) * piece + (i - begin), x);
-        else
+        if constexpr (in_line == lanes)
           V::stream(out_ + row(r) + i, x);
+        else
+          V::store(out.filled + static_cast<std::size_t>(r) * piece + (i - begin), x);
       });
+      if constexpr (in_line != lanes) send(out, lanes * lanes / in_line);
     }
-    if constexpr (!gathers) return;
-    for (int r = 0; r < width; ++r)
-      for (std::size_t i = begin; i < end; i += lanes)
-        V::stream(out_ + row(r) + i,
-                  V::load(first + static_cast<std::size_t>(r) * piece + (i - begin)));
+    if constexpr (in_line == lanes) return;
+    send(out, lanes * piece);
+    out.next(in_, begin, end - begin);
   }
 
   /// What comes `ahead` values later: in the row, or where the band below begins. An address beyond
