@@ -80,7 +80,8 @@ template <class V, class Source, class Put>
 }
 
 /// Rows rows at once, out row r = sum over k of w_k * rows[r + k], whole vectors from `first` up to
-/// n: each source row is read once for all of them, and each product made once.
+/// n: each source row is read once for all of them, and each product made once. All sums take one
+/// step before any takes the next, as written: one sum after the other, each would wait for itself.
 template <class V, int Taps, int Rows, class Put>
 [[gnu::always_inline]] inline void row_sums(const float* const* rows, const float* w,
                                             std::size_t first, std::size_t n, Put put) {
@@ -101,6 +102,7 @@ template <class V, int Taps, int Rows, class Put>
         __attribute__((always_inline)) {
       product.make(weights.of, V::load(rows[Line] + i));
       (add.template operator()<Line, Row>(), ...);
+      ((Row <= Line ? V::keep_here(sum[Row]) : void()), ...);
     };
     [&]<int... Line>(std::integer_sequence<int, Line...>) __attribute__((always_inline)) {
       (line.template operator()<Line>(std::make_integer_sequence<int, Rows>{}), ...);

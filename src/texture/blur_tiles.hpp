@@ -69,11 +69,14 @@ class blur_tiles {
 
   /// Loads n values; whole vectors may be written.
   void get(const code* from, std::size_t n, float* to) const {
+    constexpr std::size_t line = 64 / sizeof(code);
     std::size_t i = 0;
-    for (; i + V::width <= n; i += V::width) {
+    for (; i + line <= n; i += line) {
       __builtin_prefetch(from + i + 4096 / sizeof(code));
-      V::store(to + i, texels_.load(from + i));
+#pragma GCC unroll 4
+      for (std::size_t k = 0; k < line; k += V::width) V::store(to + i + k, texels_.load(from + i + k));
     }
+    for (; i + V::width <= n; i += V::width) V::store(to + i, texels_.load(from + i));
     if (i == n) return;
     code last[V::width] = {};
     for (std::size_t k = 0; i + k < n; ++k) last[k] = from[i + k];

@@ -14,6 +14,8 @@ struct lanes : bulk_kernels::avx2::lanes32 {
   }
   static __m128i words(i x) { return narrow(x); }
   static void fence() { _mm_sfence(); }
+  /// x is known here and not later: the compiler keeps to the order of the steps that lead to it.
+  static void keep_here(f& x) { asm("" : "+x"(x)); }
 
   template <int Channels>
   static f lefts(f a, f b) { return in_order<Channels>(mixed_lefts<Channels>(a, b)); }

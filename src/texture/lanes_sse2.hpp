@@ -10,6 +10,7 @@ struct lanes : bulk_kernels::sse2::lanes32 {
   static constexpr int blur_rows = 4;  ///< made at once
   static void stream(float* p, f x) { _mm_stream_ps(p, x); }
   static void fence() { _mm_sfence(); }
+  static void keep_here(f&) {}
 
   template <int Channels>
   static f lefts(f a, f b) {
