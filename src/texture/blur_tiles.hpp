@@ -22,7 +22,7 @@ class blur_tiles {
                   blur_job::slack),
         stream_(V::width * sizeof(code) >= 32 && row_size_ * sizeof(code) % 64 == 0 &&
                 row_size_ * sizeof(code) * static_cast<std::size_t>(job.height) >=
-                    blur_job::cached_bytes) {}
+                    cached_bytes) {}
 
   void run() {
     switch (job_.along) {

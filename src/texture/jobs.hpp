@@ -10,6 +10,9 @@ namespace bitshade::texture_kernels {
 /// How memory holds texels; what is computed is binary32.
 enum class texels : std::uint8_t { binary32, half, unorm16 };
 
+/// Larger images are written past the caches.
+constexpr std::size_t cached_bytes = std::size_t{4} << 20;
+
 /// Rows [first, last) of an image blurred along its rows, its columns or both.
 ///
 /// Sums run over the taps in their order, products first, without fma; what is stored between both
@@ -35,7 +38,6 @@ struct blur_job {
   static constexpr int group = 4;            ///< rows made at once
   static constexpr int most = 8;             ///< lanes may take up to so many
   static constexpr std::size_t slack = 32;   ///< whole vectors may be read and written
-  static constexpr std::size_t cached_bytes = std::size_t{4} << 20;  ///< larger images pass caches by
 };
 
 /// Rows [first, last) of the next smaller level of an image of even width and height:
@@ -60,6 +62,7 @@ struct sat_job {
   std::size_t row_size;   ///< values from a row to the next
   std::size_t first, n;   ///< values of each row; `first` at a texel's first channel
   int channels, first_row, rows;
+  bool streams;           ///< past the caches
   std::uint32_t* carry;   ///< bits of the sums at the strip's left: rows * channels, updated
   std::uint32_t* above;   ///< bits of the row above: n, updated
   static constexpr int band = 16;

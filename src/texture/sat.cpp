@@ -102,6 +102,7 @@ bool run_kernel(sums what, texels kind, const image<In>& in, image<Out>& out,
   job.out = out.texels.data();
   job.row_size = in.row_size();
   job.channels = in.channels;
+  job.streams = out.texels.size() * sizeof(Out) >= texture_kernels::cached_bytes;
   return sat_strips(*kernels, job, in.height, how).run();
 }
 

@@ -78,14 +78,13 @@ class sat_band {
         return sums_.load(in_ + row(r) + i);
       };
       const std::size_t head = to_line();
-      if (streams && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
-        // Whole lines, past the caches: so many rows at once would throw each other out of them.
+      // Rows of whole pages, read and written side by side, would throw each other out of the first level.
+      const bool gathers = job_.streams || job_.row_size * sizeof(float) % 4096 == 0;
+      if (streams && gathers && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
         for (; i < head; i += lanes) partial(sum, above + i, i, head - i < lanes ? head - i : lanes);
         const std::size_t end = head + (job_.n - head) / in_line * in_line;
-        outgoing out;
-        if constexpr (in_line != lanes) out.fill(out.room, in_ + head);
-        for (i = head; i < end; i += piece) lines(sum, above, i, end - i < piece ? end : i + piece, out);
-        send(out, lanes * piece);
+        if (job_.streams) pieces<true>(sum, above, head, end);
+        else pieces<false>(sum, above, head, end);
         i = end;
         V::fence();
       } else {
@@ -128,17 +127,31 @@ class sat_band {
     }
   };
 
-  /// Streams up to `count` lines of the full piece, row by row.
+  /// Writes up to `count` lines of the full piece, row by row.
+  template <bool Streams>
   [[gnu::always_inline]] void send(outgoing& out, std::size_t count) const {
     for (; count > 0 && out.sent < out.lines * lanes; --count, ++out.sent) {
       const std::size_t r = out.sent / out.lines, k = out.sent % out.lines * in_line;
       float* const to = out_ + row(static_cast<int>(r)) + out.at + k;
-      for (std::size_t i = 0; i < in_line; i += lanes)
-        V::stream(to + i, V::load(out.full + r * piece + k + i));
+      for (std::size_t i = 0; i < in_line; i += lanes) {
+        const f x = V::load(out.full + r * piece + k + i);
+        Streams ? V::stream(to + i, x) : V::store(to + i, x);
+      }
     }
   }
 
+  template <bool Streams>
+  void pieces(vector (&sum)[Channels], float* above, std::size_t begin, std::size_t end) const {
+    outgoing out;
+    if constexpr (in_line != lanes) out.fill(out.room, in_ + begin);
+    for (std::size_t i = begin; i < end; i += piece) {
+      lines<Streams>(sum, above, i, end - i < piece ? end : i + piece, out);
+    }
+    send<Streams>(out, lanes * piece);
+  }
+
   /// Whole lines [begin, end), at most a piece of them.
+  template <bool Streams>
   [[gnu::always_inline]] void lines(vector (&sum)[Channels], float* above, std::size_t begin,
                                     std::size_t end, outgoing& out) const {
     for (std::size_t i = begin; i < end; i += lanes) {
@@ -152,10 +165,10 @@ class sat_band {
         else
           V::store(out.filled + static_cast<std::size_t>(r) * piece + (i - begin), x);
       });
-      if constexpr (in_line != lanes) send(out, lanes * lanes / in_line);
+      if constexpr (in_line != lanes) send<Streams>(out, lanes * lanes / in_line);
     }
     if constexpr (in_line == lanes) return;
-    send(out, lanes * piece);
+    send<Streams>(out, lanes * piece);
     out.next(in_, begin, end - begin);
   }
 
