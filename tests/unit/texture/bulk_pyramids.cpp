@@ -130,6 +130,24 @@ TEST_CASE("bulk::sum_area gives the running table's bits on any number of thread
   }
 }
 
+TEST_CASE("bulk::sum_area gathers rows that go past the caches, and rows of whole pages") {
+  // Over 4 MiB, with rows of whole lines; and rows of 4 KiB.
+  for (const auto [row, height] : {std::pair(1040, 1030), std::pair(1024, 19)}) {
+    for (const int channels : {1, 2, 4}) {
+      const image<float> in = noise(row / channels, height, channels, 13);
+      const image<float> expected = running(in);
+      for (const auto set : bulk_cases::sets()) {
+        for (const unsigned threads : {1u, 2u}) {
+          CAPTURE(row, height, channels, bulk_cases::name_of(set), threads);
+          image<float> out(in.width, in.height, channels);
+          bulk::sum_area(in, out, {.threads = threads, .set = set});
+          CHECK(difference(out, expected) == "");
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("bulk::sum_area sums 16-bit texels in binary32, or their codes in wrapping integers") {
   for (const char* name : {"binary16", "unorm16", "snorm16"}) {
     const bulk::texel_code code{*parse_encoding(name), {}};
