@@ -132,7 +132,7 @@ TEST_CASE("bulk::sum_area gives the running table's bits on any number of thread
 
 TEST_CASE("bulk::sum_area gathers rows that go past the caches, and rows of whole pages") {
   // Over 4 MiB, with rows of whole lines; and rows of 4 KiB.
-  for (const auto [row, height] : {std::pair(1040, 1030), std::pair(1024, 19)}) {
+  for (const auto& [row, height] : {std::pair(1040, 1030), std::pair(1024, 19)}) {
     for (const int channels : {1, 2, 4}) {
       const image<float> in = noise(row / channels, height, channels, 13);
       const image<float> expected = running(in);
