@@ -31,47 +31,50 @@ struct norm_range {
   }
 };
 
-/// c, the integer nearest to |x| scale, and the sign of the exact error c - |x| scale, which one fma finds, give every
-/// direction but the stochastic one; the processor must round to nearest. Where zero is the middle of the scale, up and
-/// down work on x with its sign, the others on |x|.
+/// n, the integer nearest to x scale, moved where the sign of the rest d = x scale - n, which one fma finds, says that
+/// another direction goes elsewhere; the processor must round to nearest.
 template <class V, rounding D, bool Signed>
 struct norm_value : norm_range<V, Signed> {
   using range = norm_range<V, Signed>;
   using f = typename V::f;
   using i = typename V::i;
-  static constexpr bool keeps_sign = D == rounding::up || D == rounding::down || D == rounding::nearest_even;
   using range::zero;
 
-  norm_step<V, D> step;
-  const i one = V::all_bits(1);
-  const f half = V::all(0.5f);
-  const f magic = V::all(keeps_sign && Signed ? 0x1.8p23f : 0x1p23f);
+  norm_step<V, rounding::nearest_even> step;
+  const f one = V::all(1), two = V::all(2), half = V::all(0.5f);
 
   [[gnu::always_inline]] explicit norm_value(const plan& p) : range(p), step(p) {}
 
   [[gnu::always_inline]] f operator()(f x) const {
-    const f y = range::clamp(x);
-    if constexpr (keeps_sign || !Signed) return step.to_value(V::sub(V::value(code(y)), magic));
-    const f c = V::sub(V::value(code(range::size(y))), magic);
-    return step.to_value(range::with_sign(c, y));
+    const f y = range::clamp(x), sum = V::fma(y, step.scale, step.magic), n = V::sub(sum, step.magic);
+    if constexpr (D == rounding::nearest_even) return step.to_value(n);
+    else return step.to_value(moved(y, sum, n));
   }
 
  private:
-  /// Bits of `magic` plus the code.
-  [[gnu::always_inline]] i code(f a) const {
-    const f sum = V::fma(a, step.scale, magic);
-    i c = V::bits(sum);
-    if constexpr (D == rounding::nearest_even) return c;
-    const f nearest = V::sub(sum, magic);
+  [[gnu::always_inline]] f moved(f y, f sum, f n) const {
     if constexpr (D == rounding::nearest_away) {
-      const f missing = V::fnma(a, step.scale, V::add(nearest, half));
-      return V::iadd(c, V::keep(V::le(missing, zero), one));  // a tie that went to the even one below
+      // A tie that went to the even one, toward zero: its rest is 1/2 with y's sign.
+      const f rest = with_sign_of(y, half);
+      const auto tie = V::eq(V::fnma(y, step.scale, V::add(n, rest)), zero);
+      return V::fma(V::value(V::keep(tie, V::bits(rest))), two, n);
+    } else {
+      const f d = V::fms(y, step.scale, n);
+      if constexpr (D == rounding::up) return V::add(n, where(V::gt(d, zero), one));
+      if constexpr (D == rounding::down) return V::sub(n, where(V::gt(zero, d), one));
+      if constexpr (D == rounding::toward_zero) {
+        const f of_size = Signed ? V::value(V::xor_(V::bits(d), V::and_(V::bits(y), range::sign))) : d;
+        return V::sub(n, where(V::gt(zero, of_size), with_sign_of(y, one)));
+      }
+      // To odd: the integer below, its last bit set where x scale is none.
+      const f below = V::sub(sum, where(V::gt(zero, d), one));
+      const i odd = V::keep(V::ne(d, zero), V::all_bits(1));
+      return V::sub(V::value(V::or_(V::bits(below), odd)), step.magic);
     }
-    const f error = V::fnma(a, step.scale, nearest);
-    if constexpr (D == rounding::up) return V::iadd(c, V::keep(V::gt(zero, error), one));
-    c = V::isub(c, V::keep(V::gt(error, zero), one));
-    if constexpr (D == rounding::to_odd) c = V::or_(c, V::keep(V::ne(error, zero), one));
-    return c;
+  }
+  [[gnu::always_inline]] static f where(typename V::m m, f a) { return V::value(V::keep(m, V::bits(a))); }
+  [[gnu::always_inline]] f with_sign_of(f y, f size) const {
+    return Signed ? V::value(V::or_(V::and_(V::bits(y), range::sign), V::bits(size))) : size;
   }
 };
 
