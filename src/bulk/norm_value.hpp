@@ -5,29 +5,22 @@
 
 namespace bitshade::bulk_kernels {
 
-/// What norms' steps share: NaN gives 0, everything else the nearest bound that it passes.
+/// NaN gives 0, everything else the nearest bound that it passes. Bits of negative numbers, read as unsigned ones, grow with
+/// the magnitude.
 template <class V, bool Signed>
 struct norm_range {
   using f = typename V::f;
   using i = typename V::i;
-  const i sign = V::all_bits(0x80000000u), magnitude = V::all_bits(0x7fffffffu);
   const f zero = V::all(0);
   const i low, high;
 
   [[gnu::always_inline]] explicit norm_range(const plan& p)
       : low(V::bits(V::all(static_cast<float>(p.low)))), high(V::bits(V::all(static_cast<float>(p.high)))) {}
 
-  /// Bits of negative numbers, read as unsigned ones, grow with the magnitude.
   [[gnu::always_inline]] f clamp(f x) const {
     if (!Signed) return V::value(V::imin(V::bits(V::max(x, zero)), high));
     const i number = V::keep(V::eq(x, x), V::bits(x));
     return V::value(V::umin(V::imin(number, high), low));
-  }
-  [[gnu::always_inline]] f size(f y) const { return Signed ? V::value(V::and_(V::bits(y), magnitude)) : y; }
-  /// c with y's sign; zero has none.
-  [[gnu::always_inline]] f with_sign(f c, f y) const {
-    if (!Signed) return c;
-    return V::add(V::value(V::or_(V::bits(c), V::and_(V::bits(y), sign))), zero);
   }
 };
 
@@ -42,6 +35,7 @@ struct norm_value : norm_range<V, Signed> {
 
   norm_step<V, rounding::nearest_even> step;
   const f one = V::all(1), two = V::all(2), half = V::all(0.5f);
+  const i sign = V::all_bits(0x80000000u);
 
   [[gnu::always_inline]] explicit norm_value(const plan& p) : range(p), step(p) {}
 
@@ -63,7 +57,7 @@ struct norm_value : norm_range<V, Signed> {
       if constexpr (D == rounding::up) return V::add(n, where(V::gt(d, zero), one));
       if constexpr (D == rounding::down) return V::sub(n, where(V::gt(zero, d), one));
       if constexpr (D == rounding::toward_zero) {
-        const f of_size = Signed ? V::value(V::xor_(V::bits(d), V::and_(V::bits(y), range::sign))) : d;
+        const f of_size = Signed ? V::value(V::xor_(V::bits(d), V::and_(V::bits(y), sign))) : d;
         return V::sub(n, where(V::gt(zero, of_size), with_sign_of(y, one)));
       }
       // To odd: the integer below, its last bit set where x scale is none.
@@ -74,7 +68,7 @@ struct norm_value : norm_range<V, Signed> {
   }
   [[gnu::always_inline]] static f where(typename V::m m, f a) { return V::value(V::keep(m, V::bits(a))); }
   [[gnu::always_inline]] f with_sign_of(f y, f size) const {
-    return Signed ? V::value(V::or_(V::and_(V::bits(y), range::sign), V::bits(size))) : size;
+    return Signed ? V::value(V::or_(V::and_(V::bits(y), sign), V::bits(size))) : size;
   }
 };
 
@@ -132,23 +126,32 @@ struct drawn_norm_value {
 };
 
 /// Stochastic with at most 23 random bits; the processor must round toward zero. With those bits as a number R from 1 to 2,
-/// |x| scale + R, cut to 24 bits and then to an integer, is one more than the code: cutting twice is cutting once.
+/// |x| scale + R, cut to 24 bits and then to an integer, is one more than the code: cutting twice is cutting once. With a
+/// sign it is the code that passes the bounds and is cut to them, as it is the code of a NaN that becomes 0.
 template <class V, bool Signed>
 struct drawn_norm : norm_range<V, Signed> {
   using range = norm_range<V, Signed>;
   using f = typename V::f;
   using i = typename V::i;
+  using range::zero;
 
-  const f unit = V::all(0x1p23f), unit_and_one = V::all(0x1p23f + 1), scale;
-  const i one = V::bits(V::all(1)), random_mask;
+  const f unit = V::all(0x1p23f), unit_and_one = V::all(0x1p23f + 1), scale, least, largest;
+  const i one = V::bits(V::all(1)), sign = V::all_bits(0x80000000u), random_mask;
 
   [[gnu::always_inline]] explicit drawn_norm(const plan& p)
-      : range(p), scale(V::all(static_cast<float>(p.scale))), random_mask(V::all_bits(~(0xffffffffu >> p.random_bits))) {}
+      : range(p), scale(V::all(static_cast<float>(p.scale))),
+        least(V::all(static_cast<float>(p.low * p.scale))),
+        largest(V::all(static_cast<float>(p.high * p.scale))),
+        random_mask(V::all_bits(~(0xffffffffu >> p.random_bits))) {}
 
   [[gnu::always_inline]] f operator()(f x, i random) const {
-    const f y = range::clamp(x), a = range::size(y);
     const f drawn = V::value(V::or_(V::leading(V::and_(random, random_mask)), one));
-    return range::with_sign(V::sub(V::add(V::fma(a, scale, drawn), unit), unit_and_one), y);
+    const f size = Signed ? V::value(V::without(sign, V::bits(x))) : range::clamp(x);
+    const f code = V::sub(V::add(V::fma(size, scale, drawn), unit), unit_and_one);
+    if constexpr (!Signed) return code;
+    // As MAXPS: the second where either is NaN.
+    const f y = V::value(V::or_(V::bits(V::max(code, zero)), V::and_(V::bits(x), sign)));
+    return V::add(V::min(V::max(y, least), largest), zero);  // zero has no sign
   }
 };
 
