@@ -142,6 +142,37 @@ TEST_CASE("bulk asks random bits beyond those that a vector has at hand") {
   }
 }
 
+TEST_CASE("bulk decides as the definition does where the last random bits decide") {
+  // Numbers whose share of the smallest step lies within some ulp of the one at which their counter's bits go up.
+  std::vector<std::uint64_t> counters;
+  for (std::uint64_t j = 0; counters.size() < 3; ++j) {
+    if (rounding_bits(5, j) >> 41 == 0x7fffff) counters.push_back(j);
+  }
+  for (const encoding& e : {binary16::value, fp8_e4m3::value, unorm_encoding(16), snorm_encoding(16), fixed_encoding(4, 12)}) {
+    for (const auto set : bulk_cases::sets()) {
+      if (set == bulk::instruction_set::scalar) continue;
+      for (const std::uint64_t counter : counters) {
+        const double share = std::ldexp(static_cast<double>(0 - rounding_bits(5, counter)), -64);
+        bool went_up = false, stayed = false;
+        for (int ulps = -3; ulps <= 3; ++ulps) {
+          const auto nearest = static_cast<float>(share * decode(e, 1));
+          const float y = std::bit_cast<float>(static_cast<std::uint32_t>(static_cast<int>(bits_of(nearest)) + ulps));
+          const std::vector<float> in(64, y);
+          std::vector<float> out(in.size());
+          bulk::round(e, stochastic, in, out, {.seed = 5, .first_counter = counter - 13, .set = set});
+          const auto expected = static_cast<float>(round_to(e, y, stochastic, rounding_bits(5, counter)));
+          INFO(bulk_cases::describe(e, stochastic, set) << " counter=" << counter << std::hex << " in=0x" << bits_of(y)
+                                                        << " expected=0x" << bits_of(expected) << " got=0x"
+                                                        << bits_of(out[13]));
+          CHECK(bits_of(out[13]) == bits_of(expected));
+          (expected > 0 ? went_up : stayed) = true;
+        }
+        CHECK((went_up && stayed));
+      }
+    }
+  }
+}
+
 TEST_CASE("bulk refuses what cannot be meant") {
   std::vector<float> three(3), four(4);
   std::vector<std::uint8_t> codes(3);
