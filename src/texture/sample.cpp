@@ -37,8 +37,10 @@ std::optional<std::pair<grid, blend>> kernel_of(const filter_model& model) {
   const bool weights = model.weight_bits == 8 && model.weight_snap == snap::nearest;
   const bool snaps = model.grid_bits != 0 && model.grid_snap != snap::none;
   if (model.rounding == intermediate::result) {
-    if (model.order == accumulation::four_products && weights && !snaps)
+    if (model.order == accumulation::four_products && weights && !snaps &&
+        model.rounded_to == binary32::value) {
       return std::pair{grid::weights, blend::products};
+    }
     return std::nullopt;
   }
   if (model.rounding != intermediate::none || (model.weight_bits > 0 && model.weight_snap != snap::none))
@@ -97,17 +99,26 @@ bool run_kernel(const filter_model& model, texels kind, const image<Texel>& leve
   return kernels->sample(job);
 }
 
+/// binary64, and in it the end of intermediate::result, as device_sampler has them.
 template <class T>
 void run_template(const filter_model& model, const image<T>& level, const sampler_state& state,
                   std::span<const float> u, std::span<const float> v, std::span<float> out) {
   const auto channels = static_cast<std::size_t>(level.channels);
+  const bool rounds = model.rounding == intermediate::result && model.rounded_to != binary32::value;
   for (std::size_t i = 0; i < u.size(); ++i) {
     for (std::size_t c = 0; c < channels; ++c) {
+      const T value = sample_level<T>(model, level, static_cast<T>(u[i]), static_cast<T>(v[i]), state,
+                                      static_cast<int>(c));
       out[i * channels + c] = static_cast<float>(
-          sample_level<T>(model, level, static_cast<T>(u[i]), static_cast<T>(v[i]), state,
-                          static_cast<int>(c)));
+          rounds ? static_cast<T>(round_to(model.rounded_to, static_cast<double>(value))) : value);
     }
   }
+}
+
+image<double> widened(const image<float>& level) {
+  image<double> wide(level.width, level.height, level.channels);
+  wide.texels.assign(level.texels.begin(), level.texels.end());
+  return wide;
 }
 
 /// Both indices and an exact weight, or a NaN where binary64 has none.
@@ -128,10 +139,8 @@ void sample(const filter_model& model, const image<float>& level, const sampler_
             instruction_set set) {
   const sample_job job = job_of(level, u, v, out);
   if (run_kernel(model, texels::binary32, level, state, job, set)) return;
-  if (model.rounding != intermediate::result) return run_template(model, level, state, u, v, out);
-  image<double> wide(level.width, level.height, level.channels);
-  wide.texels.assign(level.texels.begin(), level.texels.end());
-  run_template(model, wide, state, u, v, out);
+  if (model.rounding == intermediate::none) return run_template(model, level, state, u, v, out);
+  run_template(model, widened(level), state, u, v, out);
 }
 
 void sample(const filter_model& model, const texel_code& code, const image<std::uint16_t>& level,
@@ -146,12 +155,14 @@ void sample(const filter_model& model, const texel_code& code, const image<std::
   const execution how{.set = set};
   const auto decoded = [&]<class T>(image<T> values) {
     decode(code.format, code.rule, level.texels, std::span(values.texels), how);
-    run_template(model, values, state, u, v, out);
+    return values;
   };
+  const auto width = level.width, height = level.height, channels = level.channels;
   if (model.rounding == intermediate::result)
-    decoded(image<double>(level.width, level.height, level.channels));
-  else
-    decoded(image<float>(level.width, level.height, level.channels));
+    return run_template(model, decoded(image<double>(width, height, channels)), state, u, v, out);
+  const image<float> loaded = decoded(image<float>(width, height, channels));
+  if (model.rounding == intermediate::none) return run_template(model, loaded, state, u, v, out);
+  run_template(model, widened(loaded), state, u, v, out);
 }
 
 std::vector<std::uint32_t> sample_decided(const exact_source& in, address mode,

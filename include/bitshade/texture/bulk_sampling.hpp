@@ -14,8 +14,8 @@ namespace bitshade::bulk {
 /// sample_level of every channel at every (u, v), without mips or anisotropy.
 ///
 /// Shapes   u.size() == v.size(); out: channels values a sample.
-/// Policy   the model's, in binary32; models that round the result once (intermediate::result) are
-///          evaluated in binary64 and narrowed at the end. Codes are loaded by their nearest
+/// Policy   the model's, in binary32; models with an `intermediate` rounding are evaluated in binary64
+///          and narrowed at the end, as device_sampler does it. Codes are loaded by their nearest
 ///          number, as texel_rule::nearest does. Models without a kernel run the template.
 /// Failure  std::invalid_argument for spans that do not fit, or an instruction set that this
 ///          processor lacks.

@@ -1,11 +1,14 @@
 // The samplers' kernels give the templates' bits: presets, storages, edges, and exact values.
 #include "support/catch.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "bitshade/formats/name.hpp"
 #include "bitshade/interop/rational.hpp"
 #include "bitshade/texture/bulk_sampling.hpp"
+#include "bitshade/texture/device_sampler.hpp"
 #include "bitshade/texture/presets.hpp"
 #include "support/bulk_cases.hpp"
 #include "support/images.hpp"
@@ -123,6 +126,37 @@ TEST_CASE("bulk::sample gives sample_level's bits in every preset and storage") 
             else
               decoded(image<float>(width, height, channels));
           }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("bulk::sample rounds between as a bound sampler does") {
+  const auto at = places(13, 9);
+  image<float> level = noise(13, 9, 2, 5);
+  image<std::uint16_t> codes(13, 9, 2);
+  bulk::encode(binary16::value, {}, level.texels, std::span(codes.texels));
+  bulk::decode(binary16::value, {}, codes.texels, std::span(level.texels));
+  coded_image stored(13, 9, 2);
+  std::ranges::copy(codes.texels, stored.texels.begin());
+  for (const char* name : {"vulkan-strict", "cuda"}) {
+    for (const auto how : {intermediate::per_lerp, intermediate::per_product, intermediate::result}) {
+      for (const encoding& to : {binary16::value, bfloat16::value, unorm_encoding(12)}) {
+        filter_model model = *find_preset(name);
+        model.rounding = how;
+        model.rounded_to = to;
+        const device_sampler bound(model, uniform_format(binary16::value, 2), {stored}, {});
+        std::vector<float> values(2 * at.u.size()), of_codes(values.size());
+        bulk::sample(model, level, {}, at.u, at.v, values);
+        bulk::sample(model, {binary16::value, {}}, codes, {}, at.u, at.v, of_codes);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          const float u = at.u[i / 2], v = at.v[i / 2];
+          if (!std::isfinite(u) || !std::isfinite(v)) continue;
+          const float expected = bound.lod(u, v, 0, static_cast<int>(i % 2));
+          CAPTURE(name, static_cast<int>(how), name_of(to), u, v);
+          REQUIRE(bulk_cases::bits_of(values[i]) == bulk_cases::bits_of(expected));
+          REQUIRE(bulk_cases::bits_of(of_codes[i]) == bulk_cases::bits_of(expected));
         }
       }
     }
