@@ -101,11 +101,13 @@ void print_table() {
   }
   std::cout << "r11g11b10     32  ue5m6, ue5m6 and ue5m5 in one word, the first lowest\n";
   std::cout << "\nand any of\n"
-               "  eXmY        X exponent and Y fraction bits, IEEE semantics: 2 <= X <= 11, 1 <= Y <= 52\n"
+               "  eXmY        X exponent and Y fraction bits, IEEE semantics;\n"
+               "              2 <= X <= 11, 1 <= Y <= 52\n"
                "  ueXmY       the same without a sign; negative numbers become 0\n"
                "  unormN      c / (2^N - 1), N <= 32\n"
                "  snormN      c / (2^(N-1) - 1), 2 <= N <= 32; both lowest codes are -1\n"
-               "  fixedI.F    two's complement, I integer bits with the sign's, F fraction bits, I + F <= 64\n"
+               "  fixedI.F    two's complement, I integer bits with the sign's, F fraction\n"
+               "              bits; I + F <= 64\n"
                "  ufixedI.F   the same without a sign\n";
 }
 

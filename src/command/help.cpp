@@ -149,6 +149,10 @@ std::string explain(const CLI::App& app, int argc, const char* const* argv,
       what = what.substr(colon + 2, equals - colon - 2) + ": '" + what.substr(equals + 3) +
              "' is not a number that it can take";
   }
+  // CLI11 says "--size: At Most 1 required but received 2".
+  constexpr std::string_view once = ": At Most 1 required but received ";
+  if (const std::size_t at = what.find(once); at != std::string::npos)
+    what.replace(at, once.size(), " may be given once, but stands there ") += " times";
   while (!what.empty() && (what.back() == '.' || what.back() == '\n')) what.pop_back();
   return what + "; see 'bitshade " + command->get_name() + " --help'";
 }

@@ -1,6 +1,9 @@
 // `bitshade round`: numbers in, the same numbers as a format would hold them out. docs/round.md is its meaning.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -57,11 +60,13 @@ void round_lines(const options& given) {
   const std::uint64_t seed = parse_seed(given.seed, "--seed");
   const std::size_t count = format.components.size();
 
-  std::cin.tie(nullptr);  // a filter: no flush of its output for each line that it reads
+  // A filter: no flush of its output for each line that it reads, unless somebody types them.
+  if (::isatty(STDIN_FILENO) == 0) std::cin.tie(nullptr);
   std::string line;
   std::uint64_t number = 0;
   if (given.json) std::cout << '[';
-  while (std::getline(std::cin, line)) {
+  // Input may have no end: it is of no use once the output cannot be written.
+  while (std::cout && std::getline(std::cin, line)) {
     ++number;
     const std::vector<std::string> texts = numbers_of(line, count);
     if (texts.size() != count) refuse(given.json, number, line, "three numbers between blanks, as r11g11b10 takes them");
@@ -91,7 +96,8 @@ void round_lines(const options& given) {
       std::cout << values << pattern << '\n';
     }
   }
-  if (std::cin.bad()) throw failure("standard input cannot be read; check where it comes from");
+  // std::cin reads through stdin and takes its errors for the end of the file.
+  if (std::cin.bad() || std::ferror(stdin) != 0) throw failure("standard input cannot be read; check where it comes from");
   if (given.json) std::cout << "\n]\n";
 }
 

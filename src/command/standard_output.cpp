@@ -30,7 +30,7 @@ void standard_output::finish() {
 }
 
 standard_output::int_type standard_output::overflow(int_type c) {
-  drain();
+  if (!drain()) return traits_type::eof();
   if (!traits_type::eq_int_type(c, traits_type::eof())) {
     *pptr() = traits_type::to_char_type(c);
     pbump(1);
@@ -39,8 +39,7 @@ standard_output::int_type standard_output::overflow(int_type c) {
 }
 
 int standard_output::sync() {
-  drain();
-  return 0;
+  return drain() ? 0 : -1;
 }
 
 bool standard_output::drain() {

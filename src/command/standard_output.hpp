@@ -10,7 +10,8 @@ namespace bitshade::command {
 /// Puts itself behind std::cout for its lifetime and remembers why a write failed.
 ///
 /// A reader that leaves early (`bitshade … | head`) is no error: the rest is dropped in silence and
-/// the work goes on. A full device is one, and finish() says so.
+/// the work goes on. A full device is one, and finish() says so. After either std::cout is bad, by
+/// which a filter, whose only work is its output, knows that it may end.
 class standard_output : public std::streambuf {
  public:
   standard_output();

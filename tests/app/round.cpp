@@ -1,6 +1,7 @@
 // The command as a script sees it: lines in, lines out, exit status.
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -115,6 +116,28 @@ TEST_CASE("round names the line that it cannot read") {
   CHECK(round_text("1\n", "--format HALF").out.find("'half'") != std::string::npos);
   for (const char* seed : {"-1", "18446744073709551616", "1.5"})
     CHECK(round_text("1\n", "--format half --rounding stochastic --seed=" + std::string(seed)).status == 2);
+}
+
+TEST_CASE("round ends when nobody reads on, and says why it could not write or read") {
+  const std::string endless = "yes 0.1 | timeout 20 " BITSHADE_COMMAND " round --format half";
+  CHECK(run("{ { " + endless + "; echo $? >&3; } | head -n 1 > /dev/null; } 3>&1").out == "0\n");
+  const outcome full = run("{ " + endless + " > /dev/full; } 2>&1; exit $?");
+  CHECK(full.status == 1);
+  CHECK(full.out.find("standard output") != std::string::npos);
+  const outcome folder = run(BITSHADE_COMMAND " round --format half < / 2>&1");
+  CHECK(folder.status == 1);
+  CHECK(folder.out.find("standard input cannot be read") != std::string::npos);
+}
+
+TEST_CASE("an option given twice is refused in a sentence; the list of formats fits 80 columns") {
+  CHECK(round_text("1\n", "--format half --rounding up --rounding down").out ==
+        "bitshade: --rounding may be given once, but stands there 2 times; see 'bitshade round --help'\n");
+  const std::string list = run(BITSHADE_COMMAND " formats").out;
+  std::size_t from = 0, longest = 0;
+  for (std::size_t end = 0; (end = list.find('\n', from)) != std::string::npos; from = end + 1)
+    longest = std::max(longest, end - from);
+  CHECK(longest > 0);
+  CHECK(longest <= 80);
 }
 
 #if defined(BITSHADE_HOSTILE_PRELOAD)
