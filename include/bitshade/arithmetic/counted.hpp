@@ -1,6 +1,8 @@
 // Any number type, counting what its operations do. A policy that does not name it does not contain it.
 #pragma once
 
+#include <compare>
+#include <iosfwd>
 #include <limits>
 
 #include "bitshade/arithmetic/counting.hpp"
@@ -88,6 +90,19 @@ class counted {
   constexpr counted& operator-=(const counted& b) { return *this = *this - b; }
   constexpr counted& operator*=(const counted& b) { return *this = *this * b; }
   constexpr counted& operator/=(const counted& b) { return *this = *this / b; }
+  constexpr counted& operator++() { return *this += counted(1); }
+  constexpr counted& operator--() { return *this -= counted(1); }
+  constexpr counted operator++(int) {
+    const counted old = *this;
+    ++*this;
+    return old;
+  }
+  constexpr counted operator--(int) {
+    const counted old = *this;
+    --*this;
+    return old;
+  }
+  friend constexpr auto operator<=>(const counted& a, const counted& b) { return a.value_ <=> b.value_; }
   friend constexpr bool operator==(const counted& a, const counted& b) { return a.value_ == b.value_; }
   friend constexpr bool operator!=(const counted& a, const counted& b) { return a.value_ != b.value_; }
   friend constexpr bool operator<(const counted& a, const counted& b) { return a.value_ < b.value_; }

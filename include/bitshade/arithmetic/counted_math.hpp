@@ -71,6 +71,10 @@ BITSHADE_COUNTED atan2(const counted<T>& y, const std::type_identity_t<counted<T
 BITSHADE_COUNTED hypot(const counted<T>& x, const std::type_identity_t<counted<T>>& y) {
   return detail::counted_on_grid<T>(detail::hypotenuse(detail::on_grid(x), detail::on_grid(y)), x, y);
 }
+BITSHADE_COUNTED hypot(const counted<T>& x, const std::type_identity_t<counted<T>>& y,
+                       const std::type_identity_t<counted<T>>& z) {
+  return detail::counted_on_grid<T>(detail::hypotenuse(detail::on_grid(x), detail::on_grid(y), detail::on_grid(z)), x, y, z);
+}
 
 // Exact before they are rounded, which a format too short for the integer does.
 #define BITSHADE_INTEGER(name, direction) \
@@ -90,6 +94,9 @@ BITSHADE_COUNTED fmod(const counted<T>& x, const std::type_identity_t<counted<T>
 }
 BITSHADE_COUNTED remainder(const counted<T>& x, const std::type_identity_t<counted<T>>& y) {
   return detail::counted_on_grid<T>(unpack(detail::modulo(detail::on_grid(x), detail::on_grid(y), true)), x, y);
+}
+BITSHADE_COUNTED remquo(const counted<T>& x, const std::type_identity_t<counted<T>>& y, int* n) {
+  return detail::counted_on_grid<T>(unpack(detail::modulo(detail::on_grid(x), detail::on_grid(y), true, n)), x, y);
 }
 BITSHADE_COUNTED ldexp(const counted<T>& x, int n) {
   exact_result u = unpack(detail::on_grid(x));
@@ -136,6 +143,11 @@ BITSHADE_QUESTION(bool, isfinite)
 BITSHADE_QUESTION(bool, isnormal)
 BITSHADE_QUESTION(bool, signbit)
 BITSHADE_QUESTION(int, ilogb)
+BITSHADE_QUESTION(int, fpclassify)
+BITSHADE_QUESTION(long, lround)
+BITSHADE_QUESTION(long long, llround)
+BITSHADE_QUESTION(long, lrint)
+BITSHADE_QUESTION(long long, llrint)
 #undef BITSHADE_QUESTION
 #undef BITSHADE_COUNTED
 

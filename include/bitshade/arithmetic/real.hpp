@@ -1,6 +1,7 @@
 // A number that is rounded after every operation: drop-in for float, in any format.
 #pragma once
 
+#include <compare>
 #include <concepts>
 #include <limits>
 #include <type_traits>
@@ -187,7 +188,17 @@ class real {
   [[gnu::always_inline]] friend constexpr mask_type operator>(const real& a, const real& b) { return a.value_ > b.value_; }
   [[gnu::always_inline]] friend constexpr mask_type operator>=(const real& a, const real& b) { return a.value_ >= b.value_; }
 
-  friend constexpr real abs(const real& a) { return make(traits::abs(a.value_)); }
+  friend constexpr std::partial_ordering operator<=>(const real& a, const real& b)
+    requires(traits::lanes == 1)
+  {
+    return a.value_ <=> b.value_;
+  }
+
+  friend constexpr real abs(const real& a) {
+    // Two's complement does not hold the opposite of its lowest number.
+    if constexpr (E.kind == family::fixed) return from_carrier(traits::abs(a.value_));
+    else return make(traits::abs(a.value_));
+  }
   friend constexpr real fabs(const real& a) { return abs(a); }
   [[gnu::always_inline]] friend constexpr real select(mask_type m, const real& a, const real& b) {
     if constexpr (traits::lanes == 1) return m ? a : b;

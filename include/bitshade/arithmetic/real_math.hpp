@@ -6,7 +6,11 @@
 // Source   long_float.hpp, exponential.hpp, trigonometric.hpp; docs/contract.md.
 #pragma once
 
-#include "bitshade/arithmetic/real.hpp"
+#include <limits>
+#include <utility>
+
+#include "bitshade/arithmetic/real_classes.hpp"
+#include "bitshade/arithmetic/real_numbers.hpp"
 #include "bitshade/arithmetic/trigonometric.hpp"
 
 namespace bitshade {
@@ -25,8 +29,10 @@ constexpr double integral(double x, rounding direction) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(static_cast<double>(whole)) | sign);
 }
 
-/// x - n y with n = x / y truncated, or rounded to nearest even: exact.
-constexpr double modulo(double x, double y, bool nearest) {
+/// x - n y with n = x / y truncated, or rounded to nearest even: exact. The 31 last bits of n, with its sign, go to
+/// `quotient` where asked for.
+constexpr double modulo(double x, double y, bool nearest, int* quotient = nullptr) {
+  if (quotient != nullptr) *quotient = 0;
   const exact_result a = unpack(x), b = unpack(y);
   if (!a.is_finite() || b.what == exact_result::kind::nan || b.is_zero())
     return std::bit_cast<double>(nan_bits(binary_encoding(11, 52)));
@@ -39,31 +45,48 @@ constexpr double modulo(double x, double y, bool nearest) {
   }
   const uint128 d = b.n << (b.exponent - low);
   uint128 rest = a.n % d;
-  bool odd = ((a.n / d) & 1) != 0;
+  auto n = static_cast<std::uint32_t>(a.n / d);
   for (std::int64_t i = a.exponent - low; i > 0; --i) {
     rest <<= 1;
-    odd = rest >= d;
-    if (odd) rest -= d;
+    n <<= 1;
+    if (rest < d) continue;
+    rest -= d;
+    n |= 1;
   }
   bool negative = a.negative;
-  if (nearest && (2 * rest > d || (2 * rest == d && odd))) {
+  if (nearest && (2 * rest > d || (2 * rest == d && (n & 1) != 0))) {
     rest = d - rest;
     negative = !negative;
+    n += 1;
+  }
+  if (quotient != nullptr) {
+    const int last = static_cast<int>(n & 0x7fffffff);
+    *quotient = a.negative != b.negative ? -last : last;
   }
   constexpr encoding wide = binary_encoding(11, 52);
   if (rest == 0) negative = a.negative;
   return std::bit_cast<double>(encode_scaled(wide, negative, rest, low, false, {}, 0));
 }
 
-/// sqrt(x^2 + y^2): one infinite leg is enough, whatever the other.
-constexpr exact_result hypotenuse(double x, double y) {
-  exact_result a = unpack(x), b = unpack(y);
+/// sqrt(x^2 + y^2 + z^2): one infinite leg is enough, whatever the others.
+constexpr exact_result hypotenuse(double x, double y, double z = 0) {
+  exact_result leg[] = {unpack(x), unpack(y), unpack(z)};
   using kind = exact_result::kind;
-  if (a.what == kind::infinite || b.what == kind::infinite) return exact_result::infinity(false);
-  if (a.what == kind::nan || b.what == kind::nan) return exact_result::nan();
-  a = {kind::finite, false, a.n * a.n, 2 * a.exponent, false};
-  b = {kind::finite, false, b.n * b.n, 2 * b.exponent, false};
-  const exact_result square = sum_of(a, b, rounding::nearest_even);
+  for (const exact_result& a : leg)
+    if (a.what == kind::infinite) return exact_result::infinity(false);
+  for (exact_result& a : leg) {
+    if (a.what == kind::nan) return exact_result::nan();
+    a = {kind::finite, false, a.n * a.n, 2 * a.exponent, false};
+  }
+  // The longest last: what the sum of the others may lose lies below 2^-124 of it.
+  const auto lead = [](const exact_result& a) {
+    return a.n == 0 ? std::numeric_limits<std::int64_t>::min() : a.exponent + bit_width(a.n);
+  };
+  for (exact_result* a : {&leg[0], &leg[1]})
+    if (lead(*a) > lead(leg[2])) std::swap(*a, leg[2]);
+  const exact_result rest = sum_of(leg[0], leg[1], rounding::nearest_even);
+  exact_result square = sum_of(rest, leg[2], rounding::nearest_even);
+  square.sticky = square.sticky || rest.sticky;
   if (square.is_zero()) return exact_result::zero(false);
   exact_result result = root_of(square);
   result.sticky = result.sticky || square.sticky;
@@ -114,6 +137,10 @@ BITSHADE_REAL hypot(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   return real<F, R, C>::from_grid(detail::hypotenuse(x.on_grid(), y.on_grid()));
 }
 
+BITSHADE_REAL hypot(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y, std::type_identity_t<real<F, R, C>> z) {
+  return real<F, R, C>::from_grid(detail::hypotenuse(x.on_grid(), y.on_grid(), z.on_grid()));
+}
+
 BITSHADE_REAL floor(real<F, R, C> x) { return detail::integral(x.operand(), rounding::down); }
 BITSHADE_REAL ceil(real<F, R, C> x) { return detail::integral(x.operand(), rounding::up); }
 BITSHADE_REAL trunc(real<F, R, C> x) { return detail::integral(x.operand(), rounding::toward_zero); }
@@ -126,24 +153,15 @@ BITSHADE_REAL fmod(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
 BITSHADE_REAL remainder(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) {
   return real<F, R, C>::from_grid(unpack(detail::modulo(x.on_grid(), y.on_grid(), true)));
 }
+/// The remainder, and the last bits of the rounded quotient with its sign.
+BITSHADE_REAL remquo(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y, int* quotient) {
+  return real<F, R, C>::from_grid(unpack(detail::modulo(x.on_grid(), y.on_grid(), true, quotient)));
+}
 BITSHADE_REAL modf(real<F, R, C> x, real<F, R, C>* whole) {
   *whole = trunc(x);
   return isinf(x) ? copysign(real<F, R, C>(0), x) : copysign(x - *whole, x);
 }
 
-template <class F, rules R, class C> constexpr bool isnan(real<F, R, C> x) { return x != x; }
-template <class F, rules R, class C> constexpr bool isfinite(real<F, R, C> x) {
-  return x.carrier() - x.carrier() == 0;
-}
-template <class F, rules R, class C> constexpr bool isinf(real<F, R, C> x) { return !isnan(x) && !isfinite(x); }
-template <class F, rules R, class C> constexpr bool isnormal(real<F, R, C> x) {
-  return isfinite(x) && x != real<F, R, C>(0) &&
-         (F::value.kind != family::binary || !(abs(x) < real<F, R, C>::from_bits(
-              static_cast<typename F::bits_type>(min_normal_bits(F::value)))));
-}
-template <class F, rules R, class C> constexpr bool signbit(real<F, R, C> x) {
-  return (std::bit_cast<std::uint64_t>(static_cast<double>(x.carrier())) >> 63) != 0;
-}
 BITSHADE_REAL copysign(real<F, R, C> x, std::type_identity_t<real<F, R, C>> sign) {
   return signbit(x) == signbit(sign) ? x : -x;
 }
@@ -166,10 +184,15 @@ BITSHADE_REAL ldexp(real<F, R, C> x, int n) {
   return real<F, R, C>::from_grid(u);
 }
 BITSHADE_REAL scalbn(real<F, R, C> x, int n) { return ldexp(x, n); }
+BITSHADE_REAL scalbln(real<F, R, C> x, long n) {
+  // Beyond 2^20 every number is 0 or beyond the largest already.
+  constexpr long most = 1 << 20;
+  return ldexp(x, static_cast<int>(n < -most ? -most : n > most ? most : n));
+}
 template <class F, rules R, class C> constexpr int ilogb(real<F, R, C> x) {
   const exact_result u = unpack(x.operand());
-  if (!u.is_finite()) return std::numeric_limits<int>::max();
-  return u.n == 0 ? -std::numeric_limits<int>::max() : static_cast<int>(u.exponent) + bit_width(u.n) - 1;
+  if (!u.is_finite()) return u.what == exact_result::kind::nan ? FP_ILOGBNAN : std::numeric_limits<int>::max();
+  return u.n == 0 ? FP_ILOGB0 : static_cast<int>(u.exponent) + bit_width(u.n) - 1;
 }
 BITSHADE_REAL logb(real<F, R, C> x) {
   if (!isfinite(x)) return abs(x);
@@ -200,5 +223,32 @@ BITSHADE_REAL nextafter(real<F, R, C> x, std::type_identity_t<real<F, R, C>> y) 
   return code(signbit(x) == up ? x.bits() - std::uint64_t{1} : x.bits() + std::uint64_t{1});
 }
 #undef BITSHADE_REAL
+
+// As for float, a number that its type does not hold gives an unspecified one.
+#define BITSHADE_INTEGER(name, type, direction) \
+  template <class F, rules R, class C> constexpr type name(real<F, R, C> x) { \
+    return static_cast<type>(detail::integral(x.operand(), rounding::direction)); \
+  }
+BITSHADE_INTEGER(lround, long, nearest_away)
+BITSHADE_INTEGER(llround, long long, nearest_away)
+BITSHADE_INTEGER(lrint, long, nearest_even)
+BITSHADE_INTEGER(llrint, long long, nearest_even)
+#undef BITSHADE_INTEGER
+
+// The first argument may be a float or an int, as the second may.
+#define BITSHADE_EITHER(name) \
+  template <class A, class F, rules R, class C> \
+    requires std::is_arithmetic_v<A> \
+  constexpr real<F, R, C> name(A x, real<F, R, C> y) { return name(real<F, R, C>(x), y); }
+BITSHADE_EITHER(pow)
+BITSHADE_EITHER(atan2)
+BITSHADE_EITHER(hypot)
+BITSHADE_EITHER(fmod)
+BITSHADE_EITHER(remainder)
+BITSHADE_EITHER(fmin)
+BITSHADE_EITHER(fmax)
+BITSHADE_EITHER(fdim)
+BITSHADE_EITHER(copysign)
+#undef BITSHADE_EITHER
 
 }  // namespace bitshade

@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const real<F, R, C>& x) {
   return out << static_cast<double>(x);
 }
 
-/// One word of text, read as parse_number does, in any locale; failbit where it is no number.
+/// One word of text, read as parse_number does, in any locale; 0 and failbit where it is no number.
 template <class F, rules R, class C>
 std::istream& operator>>(std::istream& in, real<F, R, C>& x) {
   std::string word;
@@ -43,6 +43,7 @@ std::istream& operator>>(std::istream& in, real<F, R, C>& x) {
   if (const auto number = parse_number(word)) {
     x = real<F, R, C>::from_bits(static_cast<typename F::bits_type>(encode(F::value, *number, R)));
   } else {
+    x = real<F, R, C>(0);
     in.setstate(std::ios::failbit);
   }
   return in;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 
 #include "bitshade/arithmetic/exponential.hpp"
@@ -32,6 +33,12 @@ class samples {
     double sum = 0;
     for (std::size_t i = 0; i < N; ++i) sum += sample(i);
     return sum / static_cast<double>(N);
+  }
+  /// What a template that ends in a number of the language's gets: the mean.
+  template <class T>
+    requires std::is_arithmetic_v<T>
+  explicit constexpr operator T() const {
+    return static_cast<T>(mean());
   }
   /// Bits on which the samples agree: log2(|mean| / standard deviation), from 0 to the format's precision.
   constexpr double significant_bits() const {
@@ -79,6 +86,7 @@ class samples {
   // be told apart at all is another question, which indistinguishable() answers.
   friend constexpr bool operator==(const samples& a, const samples& b) { return a.mean() == b.mean(); }
   friend constexpr bool operator!=(const samples& a, const samples& b) { return !(a == b); }
+  friend constexpr std::partial_ordering operator<=>(const samples& a, const samples& b) { return a.mean() <=> b.mean(); }
   friend constexpr bool operator<(const samples& a, const samples& b) { return a.mean() < b.mean(); }
   friend constexpr bool operator>(const samples& a, const samples& b) { return b < a; }
   friend constexpr bool operator<=(const samples& a, const samples& b) { return !(b < a); }

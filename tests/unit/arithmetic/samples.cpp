@@ -1,5 +1,7 @@
 #include "bitshade/arithmetic/samples.hpp"
 
+#include <compare>
+
 #include "support/catch.hpp"
 
 using namespace bitshade;
@@ -27,6 +29,12 @@ TEST_CASE("samples that differ by their roundings alone are indistinguishable") 
   CHECK(indistinguishable(a + b - b, a));
   CHECK_FALSE(indistinguishable(a, b));
   CHECK_FALSE(indistinguishable(single(1), single(1 + 0x1p-23)));
+}
+
+TEST_CASE("samples end in a number, their mean, and order by it") {
+  using sampled = samples<binary16>;
+  CHECK(static_cast<float>(sampled(1.5)) == 1.5f);
+  CHECK(std::is_lt(sampled(1) <=> sampled(2)));
 }
 
 TEST_CASE("fma rounds each sample once") {
