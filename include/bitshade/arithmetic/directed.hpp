@@ -33,6 +33,8 @@ struct directed_by_bits {
     return {value(bitshade::multiply(E, bits(a), bits(b), below)), value(bitshade::multiply(E, bits(a), bits(b), above))};
   }
   static constexpr bounds divide(const T& a, const T& b) {
+    // Of two unbounded ends likewise: a bounded number over ever greater ones comes as near to 0 as any quotient.
+    if (!(a - a == T(0)) && !(b - b == T(0))) return {T(0), T(0)};
     return {value(bitshade::divide(E, bits(a), bits(b), below)), value(bitshade::divide(E, bits(a), bits(b), above))};
   }
   static constexpr bounds sqrt(const T& a) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 
 #include "bitshade/arithmetic/directed.hpp"
 #include "bitshade/arithmetic/exponential.hpp"
@@ -20,8 +21,9 @@ constexpr truth operator|(truth a, truth b) { return a < b ? b : a; }
 /// [lower, upper]: every operation encloses its exact results on all numbers of its operands.
 ///
 /// Shapes   T: float, double, real<F> with infinities, or exact<Q>.
-/// Error    each bound is the nearest T on its side, of a number that T does not hold too; none for exact<Q>.
-/// Failure  dividing by an interval that holds 0 gives everything; sqrt of a part below 0 leaves that part out.
+/// Error    each bound is the nearest T on its side, of a number that T does not hold too (fma: of the product, then of
+///          the sum); none for exact<Q>.
+/// Failure  dividing by an interval that holds 0 gives everything; sqrt and log take a part below 0 for 0.
 ///          NaN bounds are not meant.
 template <class T>
 class interval {
@@ -76,6 +78,11 @@ class interval {
   }
   friend constexpr truth operator!=(const interval& a, const interval& b) { return !(a == b); }
 
+  template <class Char, class Traits>
+  friend std::basic_ostream<Char, Traits>& operator<<(std::basic_ostream<Char, Traits>& out, const interval& a) {
+    return out << '[' << a.lower_ << ", " << a.upper_ << ']';
+  }
+
   /// The smallest interval that holds both.
   friend constexpr interval hull(const interval& a, const interval& b) {
     return {b.lower_ < a.lower_ ? b.lower_ : a.lower_, a.upper_ < b.upper_ ? b.upper_ : a.upper_};
@@ -99,8 +106,7 @@ class interval {
   friend constexpr interval sqrt(const interval& a)
     requires requires { bounds::sqrt(T(0)); }
   {
-    const T low = a.lower_ < T(0) ? T(0) : a.lower_;
-    return {bounds::sqrt(low).first, bounds::sqrt(a.upper_).second};
+    return {bounds::sqrt(not_negative(a.lower_)).first, bounds::sqrt(not_negative(a.upper_)).second};
   }
   friend constexpr interval exp(const interval& a)
     requires requires { bounds::round(exact_result{}); }
@@ -111,12 +117,12 @@ class interval {
   friend constexpr interval log(const interval& a)
     requires requires { bounds::round(exact_result{}); }
   {
-    const T low = a.lower_ < T(0) ? T(0) : a.lower_;
-    return {bounds::round(elementary::log(static_cast<double>(low))).first,
-            bounds::round(elementary::log(static_cast<double>(a.upper_))).second};
+    return {bounds::round(elementary::log(static_cast<double>(not_negative(a.lower_)))).first,
+            bounds::round(elementary::log(static_cast<double>(not_negative(a.upper_)))).second};
   }
 
  private:
+  static constexpr T not_negative(const T& x) { return x < T(0) ? T(0) : x; }
   template <class U>
   static constexpr interval enclosing(U x) {
     if constexpr (requires { bounds::round(exact_result{}); }) {

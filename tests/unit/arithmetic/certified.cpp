@@ -53,6 +53,17 @@ TEST_CASE("intervals enclose the exact result, with the nearest bounds") {
   CHECK(std::isinf((interval<double>(1) / z).upper()));
   CHECK((z * z).lower() == -2);
   CHECK(abs(z).lower() == 0);
+  // Two ends without a bound have no quotient; numbers between come near 0 and go beyond every bound.
+  const double endless = std::numeric_limits<double>::infinity();
+  const interval<double> left = interval<double>(-endless, 5) / interval<double>(-endless, -2);
+  CHECK(left.lower() == -2.5);
+  CHECK(left.upper() == endless);
+  const interval<double> right = interval<double>(1, endless) / interval<double>(2, endless);
+  CHECK(right.lower() == 0);
+  CHECK(right.upper() == endless);
+  // Nothing of these has a root or a logarithm: no bound is NaN.
+  CHECK(sqrt(interval<double>(-2, -1)).upper() == 0);
+  CHECK(log(interval<double>(-2, -1)).upper() == -endless);
 }
 
 TEST_CASE("comparisons of intervals have three answers") {
