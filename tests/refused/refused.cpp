@@ -24,6 +24,7 @@
 #else
 #include "bitshade/arithmetic/interval.hpp"
 #include "bitshade/arithmetic/real.hpp"
+#include "bitshade/arithmetic/real_text.hpp"
 #endif
 
 using namespace bitshade;
@@ -72,6 +73,12 @@ int main() {
   return static_cast<int>(real<binary16, stochastic>(1));
 #elif CASE == 13
   return static_cast<int>(binary<12, 3>::value.width);
+#elif CASE == 14
+  using namespace bitshade::literals;
+  return static_cast<int>(010_half);
+#elif CASE == 15
+  using namespace bitshade::literals;
+  return static_cast<int>(0b101_half);
 #endif
   return 0;
 }

@@ -53,15 +53,31 @@ std::istream& operator>>(std::istream& in, real<F, R, C>& x) {
 namespace literals {
 
 namespace detail {
+/// A literal's text without digit separators, which are the language's, not the number's.
+template <char... Text>
+struct spelling {
+  char text[sizeof...(Text)] = {Text...};
+  std::size_t size = 0;
+
+  consteval spelling() {
+    for (const char c : text) {
+      if (c != '\'') text[size++] = c;
+    }
+  }
+  constexpr std::string_view view() const { return {text, size}; }
+  /// 0b101 is no number to parse_number, but 010 is, and eight to the language.
+  consteval bool is_decimal_or_hexadecimal() const {
+    const bool octal = size > 1 && text[0] == '0' && view().find_first_not_of("0123456789") == std::string_view::npos;
+    return !octal && parse_number(view()).has_value();
+  }
+};
+
 template <class T, char... Text>
 consteval T literal() {
-  char text[] = {Text...};
-  // Digit separators are the language's, not the number's.
-  std::size_t n = 0;
-  for (const char c : text) {
-    if (c != '\'') text[n++] = c;
-  }
-  return from_text<T>({text, n});
+  constexpr spelling<Text...> number;
+  static_assert(number.is_decimal_or_hexadecimal(),
+                "bitshade: a literal is written in decimal or hexadecimal digits, not in octal or binary ones");
+  return from_text<T>(number.view());
 }
 }  // namespace detail
 
