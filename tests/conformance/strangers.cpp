@@ -112,6 +112,10 @@ TEST_CASE("Boost.Math finds roots in emulated formats") {
   CHECK(high - low < single(1e-6));
 }
 
-TEST_CASE("fmt formats real as a double") {
+TEST_CASE("fmt formats real as a double, and as a float what that holds") {
+  // A float's shortest text is enough to tell it from every other.
+  CHECK(fmt::format("{} {:.3e} {:a}", real<binary32>(0.1), real<binary32>(0.1), real<binary32>(0.1)) ==
+        fmt::format("{} {:.3e} {:a}", 0.1f, 0.1f, 0.1f));
+  CHECK(fmt::format("{} {}", real<binary64>(0.1), real<unorm8>(0.2)) == "0.1 0.2");
   CHECK(fmt::format("{:.3f} {}", real<binary16>(0.1), real<binary16>(2)) == "0.100 2");
 }
