@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::array<const char*, 3> unit_names{"unorm", "significand", "fraction"};
 
-bool exponential(const configuration& how) {
-  return how.method == technique::esm || how.method == technique::evsm2 ||
-         how.method == technique::evsm4;
-}
 bool bounded(const configuration& how, const scene_search& search) {
   return search.which && how.method != technique::msm;
 }
@@ -97,7 +93,7 @@ int predicted_bits(const frame& scene, const configuration& how, const scene_sea
                           how.terms);
     });
   }
-  if (exponential(how)) {
+  if (warps_exponentially(how.method)) {
     return fewest_bits(tolerated, 53, [&](int b) {
       return evsm_error_at(unit_roundoff(b), q.roundings, how.exponent, q.floor_deviation);
     });
@@ -161,7 +157,7 @@ std::vector<scene_search> searches_of(const configuration& asked) {
     for (const stage s : stages_of(how))
       if (stores(s)) all.push_back({s, unit});
   };
-  const bit_unit unit = exponential(how) ? bit_unit::significand : bit_unit::unorm;
+  const bit_unit unit = warps_exponentially(how.method) ? bit_unit::significand : bit_unit::unorm;
   add_stores(unit);
   all.push_back({{}, unit});
   if (sums) add_stores(bit_unit::significand);
@@ -180,7 +176,7 @@ std::vector<scene_bits> search_scene(const frame& scene, const configuration& ho
                                      int threads) {
   if (searches.empty()) return {};
   configuration unrounded = how;
-  unrounded.format = exponential(how) ? "e8m23" : "binary32";
+  unrounded.format = warps_exponentially(how.method) ? "e8m23" : "binary32";
   const auto exact =
       run_staged(scene, unrounded, {stage_set::none(), 0, {}}, threads).visibility;
   std::vector<scene_bits> all;

@@ -47,12 +47,10 @@ void refuse_uncovered(const configuration& how, const stage_choices& choices) {
         "stages are compared for one layer a receiver under one floor: leave out --lookup, "
         "--direct-index, --noise-floor and --bleeding-power");
   }
-  const bool exponential = how.method == technique::esm || how.method == technique::evsm2 ||
-                           how.method == technique::evsm4;
   const double exponent = how.method == technique::evsm4
                               ? std::max(how.exponent, how.negative_exponent)
                               : how.exponent;
-  if (exponential) require_exact_exponent(exponent);
+  if (warps_exponentially(how.method)) require_exact_exponent(exponent);
   if (relaxed(how) && (how.lloyd != lloyd_choices{} || how.min_width != 0)) {
     throw usage_error(
         "stages are compared with Lloyd's splits at rest, in exact sums: leave out the options "

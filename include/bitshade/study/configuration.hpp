@@ -70,6 +70,11 @@ inline bool uses_floor(technique t) {
          t == technique::evsm2 || t == technique::evsm4;
 }
 
+/// Whether a technique stores depths warped by an exponential.
+inline bool warps_exponentially(technique t) {
+  return t == technique::esm || t == technique::evsm2 || t == technique::evsm4;
+}
+
 /// Whether a technique gives the share of the footprint that is lit, not a bound: nothing bleeds.
 inline bool compares_depths(technique t) {
   return t == technique::hard || t == technique::pcf || t == technique::deep;
@@ -187,7 +192,7 @@ inline std::string configuration::key() const {
   }
   if (method == technique::savsm) add("smallest-box", std::to_string(smallest_box));
   if (compares_depths(method) && depth_bias != 0) add("depth-bias", detail::shortest(depth_bias));
-  if (method == technique::esm || method == technique::evsm2 || method == technique::evsm4) {
+  if (warps_exponentially(method)) {
     add("exponent", detail::shortest(exponent));
   }
   if (method == technique::evsm4) add("negative-exponent", detail::shortest(negative_exponent));
