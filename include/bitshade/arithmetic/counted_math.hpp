@@ -40,26 +40,7 @@ constexpr counted<T> counted_on_grid(const exact_result& exact, const Operands&.
   BITSHADE_COUNTED name(const counted<T>& x) { \
     return detail::counted_result<T>(elementary::name(detail::operand_of(x)), x); \
   }
-BITSHADE_FUNCTION(exp)
-BITSHADE_FUNCTION(exp2)
-BITSHADE_FUNCTION(expm1)
-BITSHADE_FUNCTION(log)
-BITSHADE_FUNCTION(log2)
-BITSHADE_FUNCTION(log10)
-BITSHADE_FUNCTION(log1p)
-BITSHADE_FUNCTION(cbrt)
-BITSHADE_FUNCTION(sin)
-BITSHADE_FUNCTION(cos)
-BITSHADE_FUNCTION(tan)
-BITSHADE_FUNCTION(asin)
-BITSHADE_FUNCTION(acos)
-BITSHADE_FUNCTION(atan)
-BITSHADE_FUNCTION(sinh)
-BITSHADE_FUNCTION(cosh)
-BITSHADE_FUNCTION(tanh)
-BITSHADE_FUNCTION(asinh)
-BITSHADE_FUNCTION(acosh)
-BITSHADE_FUNCTION(atanh)
+BITSHADE_ELEMENTARY(BITSHADE_FUNCTION)
 #undef BITSHADE_FUNCTION
 
 BITSHADE_COUNTED pow(const counted<T>& x, const std::type_identity_t<counted<T>>& y) {
