@@ -75,6 +75,16 @@ class samples {
       r.bits_[i] = fused_multiply_add(E, a.bits_[i], b.bits_[i], c.bits_[i], R, random_bits(r.history_, i));
     return r;
   }
+  /// A function of each sample, or of each pair, that gives an exact result; `which` tells it apart in the history.
+  template <class Function>
+  friend constexpr samples each(std::uint64_t which, Function f, const samples& a) {
+    return apply([f](auto x, auto, std::uint64_t r) { return round_result(E, f(decode(E, x)), R, r); }, which, a, a);
+  }
+  template <class Function>
+  friend constexpr samples each(std::uint64_t which, Function f, const samples& a, const samples& b) {
+    return apply([f](auto x, auto y, std::uint64_t r) { return round_result(E, f(decode(E, x), decode(E, y)), R, r); },
+                 which, a, b);
+  }
   friend constexpr samples operator-(const samples& a) { return samples() - a; }
   friend constexpr samples operator+(const samples& a) { return a; }
   friend constexpr samples abs(const samples& a) { return a < samples() ? -a : a; }
