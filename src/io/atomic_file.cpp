@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -151,6 +152,8 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
     throw refuse("it has " + std::to_string(status.st_size) + " bytes, more than the " +
                  std::to_string(limit) + " that can be read; use a smaller file");
   }
+  // What is no regular file does not say how long it is, and may never end.
+  if (!S_ISREG(status.st_mode)) limit = std::min(limit, std::uintmax_t{1} << 28);
   std::vector<std::uint8_t> bytes;
   bytes.resize(S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : 1 << 16);
   std::size_t filled = 0;
@@ -161,7 +164,7 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
     if (count < 0) throw refuse(std::strerror(errno));
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);
-    if (filled > limit) throw refuse("it never ends; name a regular file");
+    if (filled > limit) throw refuse("it never ends, or is too long for what is no regular file; name one");
   }
   if (filled == 0) throw refuse("it is empty; write it again");
   bytes.resize(filled);

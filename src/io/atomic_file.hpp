@@ -25,7 +25,8 @@ void make_output_folder(const std::filesystem::path& folder);
 
 /// The whole of a file.
 ///
-/// Failure  throws failure if it is missing, a folder, unreadable, empty, or larger than `limit`.
+/// Failure  throws failure if it is missing, a folder, unreadable, empty, or larger than `limit`; what is no regular
+///          file (a pipe, a device) may have 256 MiB.
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path,
                                     std::uintmax_t limit = std::uintmax_t{1} << 36);
 

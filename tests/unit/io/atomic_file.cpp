@@ -100,4 +100,5 @@ TEST_CASE("what cannot be read says why") {
   CHECK(message_of([&] { read_file(folder / "big", 99); }).find("100 bytes") != std::string::npos);
   CHECK(message_of([] { read_file("/dev/zero", 1 << 20); }).find("never ends") !=
         std::string::npos);
+  CHECK(message_of([] { read_file("/dev/zero"); }).find("never ends") != std::string::npos);
 }
