@@ -88,7 +88,8 @@ template <class V, rounding D, class In, class Out, class Step, class Put>
                                                 Put put) {
   if constexpr (D == rounding::stochastic) {
     using result = decltype(step(static_cast<const In*>(in), V::all_bits(0), *static_cast<typename V::m*>(nullptr)));
-    const auto each = [&]<std::size_t Group>(const In* a, auto random, typename V::m(&undecided)[Group], result(&r)[Group]) __attribute__((always_inline)) {
+    const auto each = [&]<std::size_t Group>(const In* a, auto random, typename V::m(&undecided)[Group],
+                                             result(&r)[Group]) __attribute__((always_inline)) {
 #pragma GCC unroll 4
       for (std::size_t k = 0; k < Group; ++k) r[k] = step(a + k * V::width, random(k), undecided[k]);
     };

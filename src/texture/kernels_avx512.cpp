@@ -1,8 +1,8 @@
-#include "texture/blur_tiles.hpp"
+#include "texture/blur_choose.hpp"
 #include "texture/lanes_avx512.hpp"
 #include "texture/mip_rows.hpp"
 #include "texture/sample_rows.hpp"
-#include "texture/sample_wide.hpp"
+#include "texture/sample_choose.hpp"
 #include "texture/sat_bands.hpp"
 
 namespace bitshade::texture_kernels::avx512 {

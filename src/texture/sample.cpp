@@ -107,8 +107,8 @@ void run_template(const filter_model& model, const image<T>& level, const sample
   const bool rounds = model.rounding == intermediate::result && model.rounded_to != binary32::value;
   for (std::size_t i = 0; i < u.size(); ++i) {
     for (std::size_t c = 0; c < channels; ++c) {
-      const T value = sample_level<T>(model, level, static_cast<T>(u[i]), static_cast<T>(v[i]), state,
-                                      static_cast<int>(c));
+      const T value = sample_level<T>(model, level, static_cast<T>(u[i]), static_cast<T>(v[i]),
+                                      state, static_cast<int>(c));
       out[i * channels + c] = static_cast<float>(
           rounds ? static_cast<T>(round_to(model.rounded_to, static_cast<double>(value))) : value);
     }

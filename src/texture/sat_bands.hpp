@@ -59,7 +59,8 @@ class sat_band {
   static constexpr std::size_t piece = 256;  ///< values of a row, a kilobyte
   /// Where lines take several vectors, rows of codes leave room in the caches: half of them is read.
   static constexpr bool streams = in_line == lanes || sizeof(code) == sizeof(float);
-  static constexpr std::size_t ahead = 256 / sizeof(code);  ///< fetched early: sixteen rows are more than the processor foresees
+  /// Fetched early: sixteen rows are more than the processor foresees.
+  static constexpr std::size_t ahead = 256 / sizeof(code);
 
   static float number(std::uint32_t bits) { return __builtin_bit_cast(float, bits); }
 
@@ -78,9 +79,11 @@ class sat_band {
         return sums_.load(in_ + row(r) + i);
       };
       const std::size_t head = to_line();
-      // Rows of whole pages, read and written side by side, would throw each other out of the first level.
+      // Rows of whole pages, read and written side by side, would throw each other out of the
+      // first level.
       const bool gathers = job_.streams || job_.row_size * sizeof(float) % 4096 == 0;
-      if (streams && gathers && job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0 && head < job_.n) {
+      const bool whole_lines = job_.row_size * sizeof(float) % 64 == 0 && head % Channels == 0;
+      if (streams && gathers && whole_lines && head < job_.n) {
         for (; i < head; i += lanes) partial(sum, above + i, i, head - i < lanes ? head - i : lanes);
         const std::size_t end = head + (job_.n - head) / in_line * in_line;
         if (job_.streams) pieces<true>(sum, above, head, end);
@@ -105,9 +108,10 @@ class sat_band {
     }
   }
 
-  /// Rows of two pieces where a vector is no line: one is gathered while the lines of the other leave for memory, so that
-  /// neither waits for the other. Among reads of `in`, writes to places that end in the same 12 bits would hold each
-  /// other up, as rows of a power of two do: these rows keep half a kilobyte from those of `in`.
+  /// Rows of two pieces where a vector is no line: one is gathered while the lines of the other
+  /// leave for memory, so that neither waits for the other. Among reads of `in`, writes to places
+  /// that end in the same 12 bits would hold each other up, as rows of a power of two do: these rows
+  /// keep half a kilobyte from those of `in`.
   struct outgoing {
     static constexpr std::size_t size = (width + 1) * piece;
     alignas(64) float room[in_line == lanes ? 1 : 2 * size];
@@ -122,7 +126,8 @@ class sat_band {
       fill(filled < room + size ? room + size : room, in + begin + values);
     }
     void fill(float* half, const code* in) {
-      const auto distance = reinterpret_cast<std::uintptr_t>(in) - reinterpret_cast<std::uintptr_t>(half);
+      const auto distance =
+          reinterpret_cast<std::uintptr_t>(in) - reinterpret_cast<std::uintptr_t>(half);
       filled = half + (distance + 512) % 1024 / 64 * in_line;
     }
   };
