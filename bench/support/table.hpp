@@ -20,6 +20,7 @@ struct row {
   std::string base;                     ///< name of the row in the same group to divide by
   double limit = 0;                     ///< largest ratio that is wanted; 0: none is
   std::string beside = {};              ///< a row of the group whose own ratio the limit is relative to
+  bool cold = false;                    ///< before every run of `work` the caches are filled with something else
 };
 
 class table {

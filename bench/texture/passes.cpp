@@ -8,8 +8,8 @@ const std::string both = ", two cores";
 
 void add_both(table& table, const std::string& group, const std::string& name, std::size_t elements,
               const std::function<void(int)>& work) {
-  table.add({group, name, elements, [=] { work(1); }, {}, "", 0, {}});
-  table.add({group, name + both, elements, [=] { work(2); }, {}, name, 0, {}});
+  table.add({group, name, elements, [=] { work(1); }, {}, "", 0, {}, true});
+  table.add({group, name + both, elements, [=] { work(2); }, {}, name, 0, {}, true});
 }
 
 template <class T>
@@ -56,9 +56,9 @@ void add_pass(table& table, const std::string& group, const std::string& name, d
               const std::function<void(int)>& work, const std::function<std::string()>& check,
               std::size_t bits, double limit) {
   const auto n = static_cast<std::size_t>(elements);
-  table.add({group, name, n, [=] { work(1); }, check, copy_of(bits), limit, {}});
-  table.add(
-      {group, name + both, n, [=] { work(2); }, check, name, scaling_limit, copy_of(bits) + both});
+  table.add({group, name, n, [=] { work(1); }, check, copy_of(bits), limit, {}, true});
+  table.add({group, name + both, n, [=] { work(2); }, check, name, scaling_limit,
+             copy_of(bits) + both, true});
 }
 
 }  // namespace bench
