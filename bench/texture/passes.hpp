@@ -19,9 +19,9 @@ bulk::execution on(int threads);
 void on_threads(int threads, int n, const std::function<void(int, int)>& work);
 
 /// What limits passes: copies of an image of 2048^2, of 32-bit and of 16-bit texels, on one core
-/// and on two, and of 128 MiB. Before every copy and every pass the caches are filled with something
-/// else: else the third level holds an image of one channel in one run and not in the next, and its
-/// copy takes 0.06 or 0.2 ns a value.
+/// and on two, and of 128 MiB. Every copy and every pass twice: among the other rows' leavings,
+/// where the third level may hold an image or not (0.06 or 0.2 ns a value for a copy), and with
+/// caches that were filled with something else before.
 void add_copies(table& table, const std::string& group, int channels);
 
 inline const char* copy_of(std::size_t bits) { return bits == 32 ? "copy" : "copy of 16 bits"; }

@@ -85,7 +85,6 @@ struct lanes32 : words {
   static m gt(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_GT_OQ)); }
   static m eq(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_EQ_OQ)); }
   static m ne(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_NEQ_UQ)); }
-  static m le(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_LE_OQ)); }
   static m nle(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_NLE_UQ)); }
   static m eq_or_nan(f a, f b) { return bits(_mm256_cmp_ps(a, b, _CMP_EQ_UQ)); }
   static m nan(f a) { return bits(_mm256_cmp_ps(a, a, _CMP_UNORD_Q)); }

@@ -90,7 +90,6 @@ struct lanes32 : words {
   static m gt(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
   static m eq(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_OQ); }
   static m ne(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NEQ_UQ); }
-  static m le(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
   /// Not a <= b: greater, or NaN.
   static m nle(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_NLE_UQ); }
   static m eq_or_nan(f a, f b) { return _mm512_cmp_ps_mask(a, b, _CMP_EQ_UQ); }
